@@ -42,7 +42,7 @@
 //!
 //! # Where next
 //!
-//! - [`oracle`]: every hit of an intersector of yours that is wrong, and rays on which intersectors differ
+//! - [`oracle`]: every wrong hit of your intersector, and rays on which intersectors differ
 //! - [`ray_engine`], [`radiosity`], [`subsurface`], [`cpca`], [`all_frequency`], [`bi_scale`]: the six systems; each
 //!   has its paper's equations on the host, the programs of the card, and a module `paper`, to be read with the paper
 //! - [`scene`], [`geom`], [`tracer`], [`renderer`]: models and scenes, meshes and rays, a fast caster and pictures
@@ -52,9 +52,9 @@
 //! # Features
 //!
 //! Without features there are [`geom`], [`elementary`], [`compare::f32_ulps`] and [`oracle`], which need neither the
-//! emulator nor anything that reads files. `systems` adds the emulated cards' systems, the host renderers, scenes and
-//! their files; `cli`, the default, the studies, their reports and the program. `wgpu` lets cards run on a GPU of the
-//! host.
+//! emulator nor anything that reads files. `systems` adds the systems on emulated cards, the host renderers, scenes and
+//! their files; `cli`, the default, adds the studies, their reports and the program. `wgpu` lets cards run on a GPU of
+//! the host.
 #![cfg_attr(
     not(feature = "cli"),
     allow(rustdoc::broken_intra_doc_links, reason = "without features some of the modules are not there")

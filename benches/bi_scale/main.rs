@@ -2,9 +2,9 @@
 //! paper's bunny (3,286 vertices, 6 x 32 x 32 light texels, 8 x 8 local directions).
 //!
 //! Figures to beat: light times the biclusters at least three times as fast as light times the matrix row by row, in
-//! f32; biclusters of some ten million nonzeros in 24 s (the paper took 12 minutes). Ratios are within one run. An
-//! element is one nonzero. Measured once on a quiet machine: 4.1 s; 1.33 ms compared with 4.36 for one channel (3.3
-//! times), 2.7 compared with 8.5 for three (3.1 times).
+//! f32; biclusters of some ten million nonzeros in 24 s (the paper took 12 minutes). Ratios compare times of one run.
+//! An element is one nonzero. Measured once on a quiet machine: 4.1 s; 1.33 ms compared with 4.36 ms for one channel
+//! (3.3 times), 2.7 ms compared with 8.5 ms for three (3.1 times).
 //!
 //! `cargo bench -p crossbar-benches --bench bi_scale`; `-- --whole` runs biclustering once and prints its duration.
 

@@ -1,8 +1,8 @@
 //! Host speed of compressing signals: order-5 diffuse transfer (25 numbers per point) compared with plain loops, and
 //! glossy transfer (24 x 25 numbers).
 //!
-//! Figure to beat: ten times the speed of the plain loops on two threads. Ratios are within one run. An element is one
-//! point.
+//! Figure to beat: ten times the speed of the plain loops on two threads. Ratios compare times of one run. An element
+//! is one point.
 //!
 //! `cargo bench -p crossbar-benches --bench cpca`
 

@@ -1,8 +1,8 @@
 //! Speed of real cards, and of formats with different rules, relative to the ideal device with the same format.
 //!
 //! On a shared machine, the fastest of many short runs is more reliable than a median of long ones. So the devices draw
-//! alternately, on one thread, many times; the fastest draw of each counts. To beat: 1.5 times the time of the ideal
-//! device with the same format.
+//! alternately, on one thread, many times; the fastest draw of each counts. Goal: at most 1.5 times the time of the
+//! ideal device with the same format.
 
 use std::fmt::Write as _;
 use std::hint::black_box;

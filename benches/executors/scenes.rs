@@ -1,7 +1,7 @@
 //! Draws with one bottleneck each.
 //!
 //! `texture reads: 8 dependent, linear` and `triangles: 2 pixels each, blended` model a glossy frame of 512 x 512
-//! pixels on a mesh of 50,000 vertices. To beat: 1 s elapsed of `crossbar cpca card` on two threads.
+//! pixels on a mesh of 50,000 vertices. Figure to beat: 1 s for `crossbar cpca card` on two threads.
 
 use std::fmt::Write as _;
 

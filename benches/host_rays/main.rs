@@ -1,7 +1,7 @@
 //! Host speed of ray casting: our octree compared with other crates' trees, in the same run, on the same rays.
 //!
-//! Figure to beat: the crate `bvh` 0.13, the fastest of its traversals that is correct, with its own ray-triangle test
-//! (measured once: about 5 million rays per second on one thread; `obvhs` 8 to 15). Ratios are within one run.
+//! Figure to beat: the fastest correct traversal of the crate `bvh` 0.13, with its own ray-triangle test
+//! (measured once: about 5 million rays per second on one thread; `obvhs` 8 to 15). Ratios compare times of one run.
 //!
 //! `cargo bench -p crossbar-benches --bench host_rays` measures with criterion; `cargo bench -p crossbar-benches
 //! --bench host_rays -- --table` measures by repeated short runs and writes docs/performance.md. An element is one ray:

@@ -51,7 +51,7 @@ pub(crate) fn all(mesh: &Mesh) -> Vec<(&'static str, Box<dyn Tracer>)> {
 }
 
 /// Asserts that all ray casters find about the same number of hits. `bvh` treats triangles below an absolute size as
-/// edge-on, and so misses small ones.
+/// edge-on, and so misses small triangles.
 pub(crate) fn compare(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room) {
     let counts = |tracer: &dyn Tracer| [tracer.nearest(&room.primary), tracer.occluded(&room.shadow)];
     let ours = counts(tracers[0].1.as_ref());

@@ -2,7 +2,7 @@
 //! the f64 product of the host's solvers compared with nalgebra's.
 //!
 //! Figures to beat: the batch executor takes at most ten times the loop's time, and the product matches nalgebra's
-//! matrix-vector product. Ratios are within one run. An element is one texel of the matrix, or one element.
+//! matrix-vector product. Ratios compare times of one run. An element is one texel or element of the matrix.
 //!
 //! `cargo bench -p crossbar-benches --bench radiosity`; `-- "f64 product"` runs only the second, which needs less
 //! memory (the first takes 1.5 GB).

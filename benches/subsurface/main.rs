@@ -1,10 +1,10 @@
 //! Host speed of subsurface scattering: links of an atlas, and pass 2 on the batch executor compared with an f32 loop.
 //!
 //! Figures to beat: 16 fixed links per texel of 1024 x 1024 in the paper's 9 s on two threads; gathering texels in
-//! squares at least three times as fast as texel by texel; pass 2 at most five times the loop's time. Ratios are within
-//! one run. An element is one texel. Measured once, on two cores: 6.9 s; 0.47 s on one core for every 64th texel alone,
-//! so squares are only 2.2 times as fast, which misses the goal. Pass 2: 22.8 ms on two threads compared with 4.7 ms
-//! for the loop on one, 4.9 times.
+//! squares at least three times as fast as texel by texel; pass 2 at most five times the loop's time. Ratios compare
+//! times of one run. An element is one texel. Measured once, on two cores: 6.9 s; 0.47 s on one core for every 64th
+//! texel alone, so squares are only 2.2 times as fast, which misses the goal. Pass 2: 22.8 ms on two threads compared
+//! with 4.7 ms for the loop on one thread, 4.9 times.
 //!
 //! `cargo bench -p crossbar-benches --bench subsurface`
 

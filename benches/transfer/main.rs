@@ -1,7 +1,7 @@
 //! Host speed of transfer precomputation: the shadow rays of all vertices, and diffuse transfer from their results.
 //!
 //! Figure to beat: 30 million rays in 5 s on two threads, which is 10 s of processor time. An element is one ray,
-//! traced or not. Measured once, on one thread of a shared EPYC (Zen 5), a bumpy body of 49,990 vertices with 1,035
+//! traced or not. Measured once, on one thread of a shared EPYC (Zen 5), for a bumpy body of 49,990 vertices with 1,035
 //! directions each, 36 % of them blocked: 10.1 s of processor time for 51.7 million rays, so 5.9 s for 30 million.
 //!
 //! `cargo bench -p crossbar-benches --bench transfer`

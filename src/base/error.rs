@@ -38,7 +38,7 @@ impl fmt::Display for FilePlace {
 
 /// An argument that a function does not accept. The message states the expected and the found value.
 ///
-/// Two errors are equal if their code and displayed text are.
+/// Two errors are equal if their codes and displayed texts are equal.
 #[derive(Clone)]
 pub struct InputError(Box<ErrorParts>);
 

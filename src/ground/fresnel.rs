@@ -5,8 +5,8 @@
 //! suffers from cancellation there. Their sum is 1 up to rounding.
 
 /// Fresnel reflectance of a boundary, in [0, 1]: the mean of both polarisations. `cosine` is the cosine of the angle
-/// between light and normal, `ratio` the refractive index on the light's side divided by the index on the other side. 1
-/// under total internal reflection.
+/// between light and normal, `ratio` the refractive index on the light's side divided by the index on the other side.
+/// The result is 1 under total internal reflection.
 pub fn reflectance(cosine: f64, ratio: f64) -> f64 {
     let cosine = cosine.clamp(0.0, 1.0);
     let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);

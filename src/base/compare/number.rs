@@ -98,11 +98,11 @@ impl Number {
     }
 }
 
-/// Distance of two numbers in ULPs, and the format of these ULPs; `None` if they are not equal and one is NaN or
+/// Distance between two numbers in ULPs, and the format of these ULPs; `None` if they are not equal and one is NaN or
 /// infinite.
 ///
-/// Within one layout the distance is the number of steps between neighbouring numbers. Across two layouts it is the
-/// exact difference in ULPs at the larger of the two magnitudes, of the format that is coarser there.
+/// For numbers with the same layout, the distance is the number of steps between neighbouring numbers. For different
+/// layouts, it is the exact difference, in ULPs of the format that is coarser at the larger magnitude.
 pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
     let (a, b) = (left.double(), right.double());
     if (left.format.kind, left.format.encoding) == (right.format.kind, right.format.encoding) {

@@ -1,4 +1,4 @@
-//! Distance of two f32 numbers, and the text of a number.
+//! Distance between two f32 numbers, and the text of a number.
 
 /// Number of f32 steps between two numbers. -0 and +0 are 0 steps apart, and so are two NaN. `None` if the numbers are
 /// not equal and one is NaN or infinite.

@@ -43,10 +43,10 @@ pub struct FragmentPass {
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "left and right are the sides that are compared")]
 pub enum TraceStage {
-    /// Output of the vertex stage for a corner of the triangle, 0 to 2. [`first_difference`] does not see corners;
+    /// Output of the vertex stage for a corner of the triangle, 0 to 2. [`first_difference`] ignores corners;
     /// [`differing_corner`] compares them.
     Vertex { corner: usize },
-    /// The triangle covers the pixel on one side only, or the order differs, because of the vertex stage or triangle
+    /// The triangle covers the pixel on only one side, or the order differs, because of the vertex stage or triangle
     /// set-up. Gives the fragment of each side.
     Coverage { left: Option<FragmentPass>, right: Option<FragmentPass> },
     /// Interpolated values of the rasteriser.
@@ -59,8 +59,8 @@ pub enum TraceStage {
     Mask { index: usize, left: Mask, right: Mask },
     /// A branch: the index of the next instruction, `None` at the end of the program.
     Flow { left: Option<usize>, right: Option<usize> },
-    /// Output of the program that is in no register: kill, depth, clamped color. `instruction` is the only possible
-    /// cause, if there is just one.
+    /// Output of the program that is in no register: kill, depth, clamped color. `instruction` is the cause, if only
+    /// one instruction is possible.
     Output { instruction: Option<usize> },
     /// Result of the alpha test or the depth test.
     Test { left: FragmentFate, right: FragmentFate },
@@ -90,7 +90,7 @@ fn pass(index: usize, fragment: &FragmentTrace) -> FragmentPass {
 }
 
 /// Finds the first difference between two traces of one pixel: the first differing pass, its first differing stage, and
-/// the first step in it. `None` if the traces are equal. Flags are not compared, because a GPU has none.
+/// the first step in it. `None` if the traces are equal. Arithmetic flags are not compared: a GPU has none.
 pub fn first_difference(
     left: &TraceSide<'_>,
     right: &TraceSide<'_>,
@@ -259,7 +259,7 @@ impl Pair<'_> {
         (!values.is_empty()).then_some((TraceStage::Output { instruction: None }, values))
     }
 
-    /// Returns the only executed instruction with one of these opcodes; `None` if there are none or several.
+    /// Returns the executed instruction with one of these opcodes; `None` unless there is exactly one.
     fn only(&self, opcodes: &[Opcode]) -> Option<usize> {
         let instructions = &self.left.program.instructions;
         let mut ran = self.a.shading.steps.iter().map(|step| step.instruction);

@@ -5,8 +5,8 @@ use super::{Adjacency, Mesh};
 
 impl Mesh {
     /// Returns the triangles to flip so that neighbours traverse their common edge in opposite directions, in ascending
-    /// order. Corners at the same position count as one vertex. In each connected surface the smaller part is flipped;
-    /// if the parts are equal, the part without the surface's first triangle. Triangles are connected only by edges of
+    /// order. Corners at the same position count as one vertex. In each connected surface, the triangles of the rarer
+    /// orientation are flipped; on ties, those unlike the first triangle. Triangles are connected only by edges of
     /// exactly two triangles. A surface without a consistent orientation (a Moebius strip) is left unchanged. Triangles
     /// whose area is uncertain after rounding of their corners are ignored.
     ///

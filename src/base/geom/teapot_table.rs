@@ -4,7 +4,7 @@
 //! later. `fixtures/README.md` describes how these numbers were checked. The coordinates have at most five decimal
 //! places; they are stored here as multiples of 1/100000, so that the surface can be evaluated exactly.
 
-/// Units of [`POINTS`] in one unit of length.
+/// Number of units of [`POINTS`] per unit of length.
 pub(super) const UNITS: i128 = 100_000;
 
 /// Control points (x, y, z) in units of 1/100000; z is up, the spout points along +x.

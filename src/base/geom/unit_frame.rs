@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Coordinate frame of a body: relative to the centre of its bounds, in units of a power of two that exceeds half their
-/// diagonal, so that the body lies within 1 of the origin.
+/// diagonal, so that the body lies within distance 1 of the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnitFrame {
     center: DVec3,

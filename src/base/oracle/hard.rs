@@ -21,9 +21,9 @@ pub enum Aim {
     Axis,
     /// In the plane of a triangle, up to the rounding of f32: it misses that triangle and hits the others.
     Plane,
-    /// From a point of a surface (a vertex, or inside up to rounding) into any direction.
+    /// From a point of a surface (a vertex, or a point inside a triangle up to rounding), in any direction.
     Surface,
-    /// From far away, a thousand to a million sizes of the mesh, at a point of an edge.
+    /// From far away (a thousand to a million times the mesh's size), at a point of an edge.
     Far,
 }
 
@@ -143,7 +143,7 @@ pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
     rays
 }
 
-/// Number of eyes that the rays of one aim are distributed over.
+/// Number of eyes over which the rays of an aim are distributed.
 const EYES: usize = 8;
 
 /// Distributes at most `each` rays over several eyes, as evenly as possible.
@@ -168,7 +168,7 @@ impl MeshExtent {
         Some(Self { middle: (low + high) / 2.0, size: if size > 0.0 { size } else { 1.0 } })
     }
 
-    /// Point about `sizes` sizes of the mesh from its center, kept within f32.
+    /// Point at about `sizes` times the mesh's size from its center, kept within the range of f32.
     fn eye(&self, rng: CounterRng, index: u64, sizes: f64) -> [f32; 3] {
         let side = |axis: usize| {
             let step = 2.0 * rng.unit(index, 0, axis as u64) - 1.0;
@@ -222,7 +222,7 @@ impl AimedTriangle {
     /// Ray in the plane of the triangle, from outside, beyond the corner a, towards the side bc.
     fn plane_ray(&self, rng: CounterRng, index: u64) -> Option<Ray> {
         let [a, b, c] = self.corners;
-        // Every other ray along an edge.
+        // Every other ray runs along an edge.
         let share = if index.is_multiple_of(2) { 0.0 } else { rng.unit(index, 0, 104) };
         let along = b + share * (c - b) - a;
         Ray::new(in_f32(a - along), in_f32(along)).ok()

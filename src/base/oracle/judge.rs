@@ -69,7 +69,7 @@ impl<'a> Oracle<'a> {
         self
     }
 
-    /// Judges one hit per ray, in the order of the rays. A t counts in multiples of its ray's direction as given.
+    /// Judges one hit per ray, in the order of the rays. Each t is in multiples of its ray's direction as given.
     pub fn judge<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, InputError> {
         ensure!(
             rays.len() == hits.len(),

@@ -2,8 +2,8 @@
 //! disagreement with exact arithmetic.
 //!
 //! An [`Oracle`] decides first hits on the f32 values as given ([`crate::geom::exact`]) and classifies each result that
-//! differs as a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the correct triangle, a t too far
-//! off. If several triangles are hit at exactly the same t, as on a shared edge, each is a correct answer. At a
+//! differs as a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the correct triangle, a t beyond the
+//! tolerance. If several triangles are hit at exactly the same t, as on a shared edge, each is a correct answer. At a
 //! silhouette, where the two triangles of an edge face opposite ways, a miss is correct for a ray a few ULPs away
 //! ([`DisagreementKind::Silhouette`]), and [`Oracle::assert_watertight`] accepts it. Where the two triangles face the
 //! same way, a miss is a hole for all nearby rays. [`hard_rays`] generates rays on which intersectors differ. The
@@ -42,7 +42,7 @@
 //! let leak = "ray 1 from (0.25, 0.75, 2) along (0, 0, -1): leak: expected triangle 1 at t = 2";
 //! assert!(report.to_string().contains(leak));
 //!
-//! // Rays that ask for trouble, for any mesh.
+//! // Rays on which intersectors differ, for any mesh.
 //! let rays = hard_rays(&mesh, 100, 1);
 //! let report = oracle.examine(&rays, mine);
 //! assert!(report.by_aim(&rays).leaks(Aim::Axis) > 0, "{}", report.by_aim(&rays));

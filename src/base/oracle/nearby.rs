@@ -78,7 +78,7 @@ pub(super) fn turned(ray: &Ray, ulps: u32) -> impl Iterator<Item = Ray> {
         })
 }
 
-/// Iterates over nearby rays of the same direction, nearest origin first; none if a hit at `t` is out of their reach.
+/// Iterates over nearby rays with the same direction, nearest origin first; empty if they cannot reach a hit at `t`.
 /// The step between origins is one ULP of the largest coordinate of the ray's origin and `points`.
 pub(super) fn moved(
     ray: &Ray,

@@ -8,7 +8,7 @@ use crate::geom::Sides;
 
 const LISTED: usize = 10;
 
-/// Result of an oracle. At most ten disagreements are displayed, worst first; [`Report::disagreements`] has them all.
+/// Result of an oracle. At most ten disagreements are displayed, worst first; [`Report::disagreements`] returns all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     rays: usize,
@@ -20,7 +20,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Creates a report from `[rays, rays that hit exactly, hits found]`, and the disagreements in any order.
+    /// Creates a report from `[rays, rays that hit in exact arithmetic, hits found]` and disagreements in any order.
     pub(super) fn new(
         [rays, surface, hits]: [usize; 3],
         sides: Sides,

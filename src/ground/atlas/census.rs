@@ -15,9 +15,9 @@ pub struct Census {
     pub faces: usize,
     /// Number of parts that share no edge with each other.
     pub parts: usize,
-    /// Number of edges of a single face.
+    /// Number of edges that belong to a single face.
     pub boundary_edges: usize,
-    /// Number of edges of more than two faces.
+    /// Number of edges that belong to more than two faces.
     pub crowded_edges: usize,
     /// Number of face pairs that traverse a common edge in the same direction.
     pub orientation_conflicts: usize,

@@ -39,7 +39,7 @@ pub struct WholeVertex {
     pub position: DVec3,
     /// Unit normal, or zero where none is known.
     pub normal: DVec3,
-    /// Two pairs of texel coordinates, to be interpolated. Their componentwise minimum, one more instruction, is the
+    /// Two pairs of texel coordinates, to be interpolated. Their componentwise minimum (one more instruction) is the
     /// position in the atlas in both halves of the face.
     pub at: [[u32; 2]; 2],
 }

@@ -29,8 +29,8 @@ pub(super) struct FaceGraph {
 }
 
 impl FaceGraph {
-    /// Builds the graph of all faces of a mesh. If an edge has more than two faces, each face is linked to the next one
-    /// only.
+    /// Builds the graph of all faces of a mesh. If an edge has more than two faces, each face is linked only to the
+    /// next.
     pub(super) fn of_mesh(surface: &AtlasSurface, welded: &Mesh, adjacency: &Adjacency) -> Self {
         let unit_per_length = units_per_length(welded);
         let mut pairs: Vec<(u32, FaceLink)> = Vec::with_capacity(surface.len() * 3);

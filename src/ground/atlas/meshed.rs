@@ -32,7 +32,7 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// Builds the atlas of a mesh with `side` texels along a side: a power of two.
+    /// Builds the atlas of a mesh with `side` x `side` texels; `side` is a power of two.
     ///
     /// ```
     /// # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*}; }
@@ -145,7 +145,7 @@ impl Atlas {
         self.surface.corners(face)
     }
 
-    /// Normals at the corners of a face, at length 1; zero where none is known.
+    /// Unit normals at the corners of a face; zero where unknown.
     pub fn normals(&self, face: u32) -> [DVec3; 3] {
         self.surface.normals(face)
     }
@@ -155,15 +155,15 @@ impl Atlas {
         self.places[face as usize].coordinates(weights)
     }
 
-    /// Part of the surface under a texel, by its index.
+    /// Part of the surface under the texel with this index.
     pub fn part(&self, texel: u32) -> TexelPart {
         let face = self.texels[texel as usize].face;
         let [x, y] = self.column_and_row(texel);
         TexelPart::new(&self.places[face as usize], self.surface.corners(face), [x, y], [x + 1.0, y + 1.0])
     }
 
-    /// `n` x `n` points that stratify a texel's part, row by row: the centroids of subdivisions of equal area. Their
-    /// mean is the texel's mean point.
+    /// `n` x `n` points that stratify the surface under a texel, row by row: the centroids of subdivisions of equal
+    /// area. Their mean is the texel's mean point.
     pub fn points(&self, texel: u32, n: u32) -> impl Iterator<Item = DVec3> {
         let face = self.texels[texel as usize].face;
         let [x, y] = self.column_and_row(texel);

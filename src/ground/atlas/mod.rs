@@ -1,6 +1,6 @@
 //! The multiresolution meshed atlas: a mesh mapped to a square of texels.
 //!
-//! Every face has a rectangle of texels of its own, and every texel lies on one face. Faces are clustered in a binary
+//! Every face has its own rectangle of texels, and every texel lies on one face. Faces are clustered in a binary
 //! tree whose nodes are squares and 2:1 rectangles, so that a texel of a coarser level is the mean of a cluster.
 //! docs/atlas.md explains the construction and measures its quality.
 

@@ -28,7 +28,7 @@ pub struct FacePlace {
 }
 
 impl FacePlace {
-    /// Chooses the placement of a face in a rectangle: the one of the six with the squarest texels. Ties are broken by
+    /// Chooses, among the six placements of a face in a rectangle, the one with the squarest texels. Ties are broken by
     /// corner, then in favour of the untransposed placement.
     pub(super) fn squarest([x, y, width, height]: [u32; 4], corners: [DVec3; 3]) -> Self {
         let place = |first, transposed| Self { x, y, width, height, first, transposed };

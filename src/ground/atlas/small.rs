@@ -6,7 +6,7 @@ use super::measures::{FaceMeasures, SplitLimits};
 /// Maximum number of faces for exhaustive search.
 pub(super) const MOST: usize = 8;
 
-/// Weight of the halves' spread against a weight of 1 for their unevenness; both measures are in [0, 1].
+/// Weight of the halves' spread; the weight of their unevenness is 1. Both measures are in [0, 1].
 const SPREAD: f64 = 0.25;
 
 /// Splits a cluster of 2 to [`MOST`] faces: within the limits, into the fewest connected parts; among such splits, the

@@ -3,7 +3,7 @@
 //! Given two faces far apart, A and B, faces are ordered by the difference of their distances from A and from B. A
 //! face's predecessor on the shortest path from A precedes it in the order, and its predecessor on the shortest path
 //! from B follows it, so both halves of any split are connected. The only exception is faces with equal differences in
-//! a part that one face connects to the rest. Distances are integers, so rounding causes no other.
+//! a part that one face connects to the rest. Distances are integers, so rounding causes no other exception.
 
 use glam::DVec3;
 
@@ -196,7 +196,7 @@ fn second_of(order: &[u32], at: usize) -> Vec<bool> {
     second
 }
 
-/// Makes halves of several parts connected: in each half, the part of the largest demand stays, and the other parts
+/// Makes halves of several parts connected: in each half, the part with the largest demand stays, and the other parts
 /// move to the other half. `None` if the result violates the limits or is not connected.
 fn mend(
     graph: &FaceGraph,

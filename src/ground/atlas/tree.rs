@@ -32,7 +32,7 @@ pub struct ClusterTree {
 }
 
 impl ClusterTree {
-    /// Builds the tree of a graph's faces, at least one, over a square with at least one texel per face.
+    /// Builds the tree of a graph's faces (at least one) over a square with at least one texel per face.
     pub(super) fn new(graph: FaceGraph, measures: &FaceMeasures, side: u32) -> Self {
         let count = graph.len();
         let mut nodes = vec![ClusterNode::default(); 2 * count - 1];

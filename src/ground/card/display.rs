@@ -73,7 +73,7 @@ pub struct MeshDraw<'a> {
     pub mask: WriteMask,
 }
 
-/// The programs that fill the depth buffer only.
+/// The programs that fill only the depth buffer.
 #[derive(Clone, Debug)]
 pub struct DepthPrograms {
     vertex: CheckedProgram,
@@ -131,7 +131,7 @@ impl MeshDisplay {
         &self.positions
     }
 
-    /// Returns the target after `draw`, and if `is_logged` the log of the draws without the read-back. The target is 0
+    /// Returns the target after `draw` and, if `is_logged`, the log of the draws without the read-back. The target is 0
     /// where nothing is drawn.
     pub fn show(
         &mut self,
@@ -186,7 +186,7 @@ impl<'a> MeshPass<'a> {
         self.camera.clip_rows(self.frame)
     }
 
-    /// The eye in the mesh's frame, with a fourth component.
+    /// The eye in the mesh's frame, with `w` as the fourth component.
     pub fn eye(&self, w: f32) -> [f32; 4] {
         attribute(self.frame.of_scene(wide(self.camera.eye())).to_array(), w).map(f32::from_bits)
     }
@@ -196,7 +196,7 @@ impl<'a> MeshPass<'a> {
         self.rows().into_iter().chain([self.eye(1.0)]).collect()
     }
 
-    /// Draws the whole mesh into the depth buffer only. Fails with [`CardError::Draw`].
+    /// Draws the whole mesh, only into the depth buffer. Fails with [`CardError::Draw`].
     pub fn draw_depth(&mut self, programs: &DepthPrograms, indices: &[u32]) -> Result<(), CardError> {
         self.draw(MeshDraw {
             vertex: (&programs.vertex, self.rows().to_vec()),

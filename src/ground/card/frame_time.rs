@@ -1,5 +1,5 @@
-//! The modelled time of a frame: host work, uploads and constants, vertices and pixels; also for frames that are not
-//! drawn, whose log is computed from sizes and counts alone.
+//! The modelled time of a frame: host work, uploads and constants, vertices and pixels. For a frame that is not drawn,
+//! the log is computed from sizes and counts alone.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -41,9 +41,9 @@ pub struct FrameTime {
     pub products: Picoseconds,
     /// Time of uploads to the card, without constants.
     pub uploads: Picoseconds,
-    /// Time of state changes, constants included.
+    /// Time of state changes, including constants.
     pub state: Picoseconds,
-    /// Sum of the times of all draws, those into the depth buffer included.
+    /// Sum of the times of all draws, including those into the depth buffer.
     pub draws: Picoseconds,
     /// Number of constant registers uploaded.
     pub constants: u64,
@@ -127,7 +127,7 @@ impl UnseenFrame {
         Self { run_per_triangle, pixel: Arc::new(ProgramWork::new(&program, FlowConstants::default())), log }
     }
 
-    /// Draws triangles with these numbers of `attributes` and of vertex program `slots` per vertex.
+    /// Adds a draw of triangles whose vertices have `attributes` attributes and run a program of `slots` slots.
     pub fn draw(&mut self, triangles: u64, slots: u64, attributes: u64) {
         let run = (triangles as f64 * self.run_per_triangle).round() as u64;
         let mut counts = DrawEvents {

@@ -32,7 +32,7 @@ impl NearestTarget {
         machine.clear_depth(self.depth, 1.0_f32.to_bits())
     }
 
-    /// Sets a draw into the color target up to keep the nearest fragment, with pixel centers as in OpenGL.
+    /// Sets up a draw into the color target to keep the nearest fragment, with pixel centers as in OpenGL.
     pub fn keep_nearest(&self, call: &mut DrawCall<'_>) {
         call.center = PixelCenter::OpenGl;
         call.depth = DepthState { test: Some(CompareFunction::Less), write: true };

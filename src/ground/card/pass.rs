@@ -12,7 +12,7 @@ use super::new_target;
 /// A texture and the sampler state with which it is read.
 pub type ReadTexture = (TextureId, SamplerState);
 
-/// Linear within a level, clamped at the border.
+/// Linear filtering within a level, clamped at the border.
 pub const BILINEAR: SamplerState = SamplerState {
     min: Filter::Linear,
     mag: Filter::Linear,

@@ -24,7 +24,7 @@ pub struct SeenPixel {
 }
 
 /// The front face and barycentric weights at each pixel of a camera, row by row: from a draw in single precision with
-/// the device's positions of vertices. `None` where the background shows.
+/// vertex positions rounded as on the device. `None` where the background shows.
 pub fn seen_pixels(
     profile: &Profile,
     geometry: (&[[f32; 3]], &[[u32; 3]]),

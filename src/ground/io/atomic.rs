@@ -1,5 +1,5 @@
-//! Atomic writes: a file is written beside its place, then renamed into it. A killed process leaves `.crossbar-XXXXXX`
-//! behind at most.
+//! Atomic writes: a file is written beside its place, then renamed into it. A killed process leaves at most
+//! `.crossbar-XXXXXX` behind.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -93,8 +93,8 @@ pub fn require_writable(folder: &Path) -> Result<(), WriteError> {
 }
 
 /// Writes files into a folder, and returns their places. All are written beside their places before the first is put
-/// there, so that a failed write leaves the folder as it was. Fails before anything else for a name that leaves the
-/// folder.
+/// there, so that a failed write leaves the folder as it was. A name that leaves the folder is refused before anything
+/// is written.
 pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, WriteError> {
     let is_plain =
         |name: &Path| name.file_name().is_some() && name.components().all(|part| matches!(part, Component::Normal(_)));

@@ -1,8 +1,8 @@
 //! Sparse matrices as Matrix Market files: `%%MatrixMarket matrix coordinate real general`, comments, a line with the
 //! numbers of rows, columns and entries, then a line `row column value` per entry, in any order, counted from 1.
 //!
-//! The reader also accepts the field `integer`. Numbers are rounded to the nearest f64; it rejects those that round to 0
-//! or infinity, and other fields, dense arrays and symmetries.
+//! The reader also accepts the field `integer`. Numbers are rounded to the nearest f64. The reader rejects numbers that
+//! round to 0 or infinity, other fields, dense arrays and symmetries.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -14,8 +14,8 @@ use crate::error::{FilePlace, InputError, input_error};
 
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
-/// Number of rows and of columns that every file may have (2^24). A file of more bytes may have as many rows or columns
-/// as bytes, so the size of a file bounds the size of its matrix.
+/// Number of rows and of columns that every file may have (2^24). A file with more bytes may have as many rows or
+/// columns as bytes, so the size of a file bounds the size of its matrix.
 pub const ANY_SIZE: usize = 1 << 24;
 /// Length of the shortest line of an entry: `1 1 1` and a line feed.
 const SHORTEST: usize = 6;
@@ -65,7 +65,7 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
             help "leave out empty rows and columns: beyond {ANY_SIZE} there may be one per byte of the file")
         .at(FilePlace::line(name, size_line)));
     }
-    // Memory is allocated in proportion to the file's bytes only.
+    // Memory is allocated only in proportion to the file's bytes.
     let mut entries = Vec::with_capacity(count.min(bytes.len() / SHORTEST));
     for (line, text) in lines {
         entries.push(entry(text, [rows, columns]).map_err(|error| error.at(FilePlace::line(name, line)))?);

@@ -1,5 +1,5 @@
-//! Input and output of files: models, scenes, pictures, rays and hits; writing is atomic, so that no file is left
-//! partial. [`scenes`] are the project's own.
+//! Input and output of files: models, scenes, pictures, rays and hits; writing is atomic, so that no partial file is
+//! left. [`scenes`] are the scenes of this project.
 
 mod atomic;
 pub mod cube_map;
@@ -68,7 +68,7 @@ fn is_device(_: &std::fs::FileType) -> bool {
     false
 }
 
-/// The contents of a file of at most `limit` bytes, or `None` if it is longer. A device with more is an error.
+/// The contents of a file of at most `limit` bytes, or `None` if it is longer. A device with more bytes is an error.
 pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     let file = File::open(path)?;
     let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));

@@ -1,4 +1,4 @@
-//! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, of either byte order. In a table, the
+//! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, in either byte order. In a table, the
 //! first axis counts the rows, and the other axes together the columns. f8 is rounded to nearest if f32 is requested.
 
 use std::io::{self, Write};
@@ -57,7 +57,7 @@ pub fn parse_npy<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTabl
 pub(super) struct NpyView<'a> {
     /// Byte order, kind and size, such as `<f4`.
     pub(super) descr: String,
-    /// Bytes of a number.
+    /// Bytes per number.
     pub(super) size: usize,
     pub(super) shape: Vec<usize>,
     /// The numbers' bytes; their count matches shape and type.

@@ -5,7 +5,7 @@
 //! the order of the file, from 0. Vertices are numbered by first use; unused vertices are dropped. Degenerate triangles
 //! are kept, because they count in the order of ids; no ray hits them. A word that begins with `#` begins a comment.
 //!
-//! Texture coordinates and normals have indices of their own in the file. If all corners have them, each combination of
+//! Texture coordinates and normals have their own indices in the file. If all corners have them, each combination of
 //! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise texture
 //! coordinates and normals are dropped.
 
@@ -94,7 +94,7 @@ pub(super) struct ObjReader {
     texcoords: Vec<[f32; 2]>,
     normals: Vec<[f32; 3]>,
     faces: Faces<ObjCorner>,
-    /// Indices to elements that had not been read yet: line, target and index.
+    /// Indices of elements that had not been read yet: line, target and index.
     forward: Vec<(usize, usize, i64)>,
 }
 

@@ -4,8 +4,8 @@
 //! (`vertex_indices` or `vertex_index`), and ignores all others. A face of n corners becomes n - 2 triangles
 //! ([`crate::geom::polygon`]). Vertices keep the file's order, and degenerate triangles are kept, as in OBJ files.
 //!
-//! The file is read element by element, so that an error names the line or the element, and no memory is allocated by a
-//! count in the header alone.
+//! The file is read element by element, so that an error names the line or the element, and a count in the header alone
+//! allocates no memory.
 
 use std::borrow::Cow;
 use std::fmt::Display;

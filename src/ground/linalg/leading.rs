@@ -113,8 +113,7 @@ impl Lower {
         sums.into_iter().fold(0.0, f64::max)
     }
 
-    /// Product of the leading rows and columns with `vector`; the number of its elements is the number of rows and
-    /// columns.
+    /// Product of the leading n rows and columns with `vector`, which has n elements.
     #[inline(always)]
     fn times(&self, vector: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; vector.len()];

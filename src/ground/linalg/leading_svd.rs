@@ -19,10 +19,10 @@ use crate::linalg::factor::{not_finite_error, residual_error};
 /// All singular values of a matrix, and the vectors of the largest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeadingSvd {
-    /// All singular values, largest first; their number is the smaller of the matrix's numbers of rows and columns.
+    /// All singular values, largest first; as many as the matrix has rows or columns, whichever are fewer.
     pub values: Vec<f64>,
-    /// Numerical rank: the number of values above the largest times 2^-52 times the number of rows or columns,
-    /// whichever is larger.
+    /// Numerical rank: the number of values above 2^-52 m s, where m is the number of rows or of columns, whichever is
+    /// larger, and s the largest value.
     pub rank: usize,
     /// Row k is the unit left singular vector of value k: an element per row of the matrix.
     pub left: Matrix,

@@ -1,4 +1,4 @@
-//! Dense linear algebra in f64, with the same bits on every processor, number of threads and set of cargo features.
+//! Dense linear algebra in f64, with the same bits for every processor, number of threads and set of cargo features.
 //!
 //! - [`Matrix`]: a dense matrix by rows, and its products; [`dot`]: the inner product;
 //! - [`Lu`], blocked and parallel; [`SymmetricEigen`], by nalgebra;

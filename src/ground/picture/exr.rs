@@ -79,9 +79,9 @@ pub(super) fn check_size(bytes: &[u8]) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Decodes the first layer of an EXR file, in its largest resolution. Callers run [`check_size`] first, because the reader
-/// allocates by the header. Halves become singles. The picture is the display window: samples outside the data window
-/// are 0, and pixels outside the display window are dropped.
+/// Decodes the first layer of an EXR file, at its largest resolution. Callers run [`check_size`] first, because the
+/// reader allocates the stated size. Halves become singles. The picture is the display window: samples outside the data
+/// window are 0, and pixels outside the display window are dropped.
 pub(super) fn decode(bytes: &[u8]) -> Result<Picture, InputError> {
     let image = exr::prelude::read()
         .no_deep_data()

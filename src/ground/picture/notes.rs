@@ -7,7 +7,7 @@ pub struct PictureNotes {
     pub software: String,
     /// Description of how the picture was made: `Comment` in PNG, `comments` in EXR.
     pub comments: String,
-    /// `worldToCamera` in EXR, row by row: the product of a point as a row vector with this matrix has the components
-    /// right, up, and forward of the camera, so that the third is the channel `Z`.
+    /// `worldToCamera` in EXR, row by row: a point, as a row vector, times this matrix has the components right, up and
+    /// forward in the camera's frame, so that the third is the channel `Z`.
     pub world_to_camera: Option<[f32; 16]>,
 }

@@ -36,8 +36,8 @@ fn format_of(bytes: &[u8]) -> Result<PictureFormat, InputError> {
 impl Picture {
     /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives `R`, `G`, `B` (and `A`, which is
     /// linear): sRGB values, or linear values if a gAMA or cICP chunk specifies the decoding. Radiance HDR gives linear
-    /// values, divided by the factors of its EXPOSURE and COLORCORR lines. Of an EXR file, the first layer is read; the
-    /// picture has the size of the display window, with 0 outside the layer's pixels. A size beyond the limits, and
+    /// values, divided by the factors of its EXPOSURE and COLORCORR lines. From an EXR file, the first layer is read;
+    /// the picture has the size of the display window, with 0 outside the layer's pixels. A size beyond the limits, and
     /// more pixels than the file's bytes can encode, are refused before any pixel is decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, InputError> {
         match format_of(bytes)? {

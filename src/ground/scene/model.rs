@@ -87,7 +87,7 @@ impl Scene {
                 materials.len()
             ));
         }
-        // Scenes without smooth normals have an empty list only.
+        // Scenes without smooth normals always have an empty list.
         let normals = if normals.iter().all(|corners| *corners == [[0.0; 3]; 3]) { Vec::new() } else { normals };
         Ok(Self { mesh, materials, material_of, normals, point_lights: Vec::new(), views: Vec::new() })
     }

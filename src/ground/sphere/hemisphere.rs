@@ -12,11 +12,11 @@ use crate::quadrature;
 
 /// Gram matrix A of harmonics over the hemisphere, A_ik the integral of y_i y_k, with its inverse and spectrum.
 ///
-/// Functions of different m are orthogonal over the hemisphere too, so A is block diagonal. Within a block, the product
-/// of functions whose bands differ by an even number has half of its integral over the sphere, 1/2 or 0. Each block is
-/// M^T M, where M contains the functions at the points of a rule that is exact for their products. Inverse and spectrum
-/// come from the singular values of M, so rounding errors are amplified only by the square root of A's condition
-/// number.
+/// Functions of different m are orthogonal over the hemisphere too, so A is block diagonal. If the bands of two
+/// functions of a block differ by an even number, their product has half of its integral over the sphere: 1/2 or 0.
+/// Each block is M^T M, where M contains the functions at the points of a rule that is exact for their products.
+/// Inverse and spectrum come from the singular values of M, so rounding errors are amplified only by the square root of
+/// A's condition number.
 #[derive(Clone, Debug)]
 pub struct Hemisphere {
     order: usize,

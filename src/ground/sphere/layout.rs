@@ -21,12 +21,12 @@ pub enum EnvironmentLayout {
     /// circle. Pixels beyond it are ignored.
     #[strum(to_string = "angular probe")]
     AngularProbe,
-    /// An unfolded cube seen from inside, six squares of 4 x 3 or 3 x 4. Around the middle square are the right, left,
-    /// upper and lower ones; the back is beyond the right square (4 x 3), or upside down beyond the lower square (3 x
-    /// 4). Other squares are ignored.
+    /// An unfolded cube seen from inside, six squares of a grid of 4 x 3 or 3 x 4. Around the middle square are the
+    /// right, left, upper and lower ones; the back is beyond the right square (4 x 3), or upside down beyond the lower
+    /// square (3 x 4). Other squares are ignored.
     #[strum(to_string = "cube cross")]
     CubeCross,
-    /// Six squares one below the other: the faces of a cube map, in order and orientation of
+    /// Six squares one below the other: the faces of a cube map, in the order and orientation of
     /// [`CUBE_FACES`](super::CUBE_FACES).
     #[strum(to_string = "cube strip")]
     CubeStrip,

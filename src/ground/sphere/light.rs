@@ -11,7 +11,7 @@ use crate::elementary::sin_cos;
 use crate::error::{InputError, ensure, input_error};
 use crate::quadrature::legendre_polynomials;
 
-/// Distant radiance as coefficients of one order, for red, green and blue.
+/// Distant radiance as coefficients, with the same order for red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HarmonicLight {
     channels: [Vec<f64>; 3],
@@ -69,8 +69,8 @@ impl HarmonicLight {
         Self::colored(&function, radiance)
     }
 
-    /// Creates a light of a red disk from +x and a blue one from -x, both from somewhat behind an object seen along +y,
-    /// in a dim white surrounding: similar to the light of Figure 7, which was not published.
+    /// Creates a light from a red disk at +x and a blue disk at -x, both somewhat behind an object seen along +y, in
+    /// dim white surroundings: similar to the light of Figure 7, which was not published.
     pub fn red_and_blue(order: usize) -> Self {
         let [red, blue] = Self::RED_AND_BLUE_DISKS
             .map(|(towards, color)| Self::disk(order, towards, Self::RED_AND_BLUE_RADIUS, color));
@@ -105,7 +105,7 @@ impl HarmonicLight {
         Self { channels: [0, 1, 2].map(sum) }
     }
 
-    /// Rotates the light around the scene. Panics if the rotation is of another order.
+    /// Rotates the light around the scene. Panics if the rotation has another order.
     pub fn rotated(&self, rotation: &HarmonicRotation) -> Self {
         let turned = |channel: &Vec<f64>| {
             let mut into = vec![0.0; channel.len()];

@@ -6,7 +6,7 @@
 
 use crate::linalg::dot;
 
-/// Maximum number of sweeps over all pairs of columns; 10 columns take 4 to 7.
+/// Maximum number of sweeps over all pairs of columns; 10 columns need 4 to 7.
 const MAX_SWEEPS: usize = 40;
 
 /// Cosine up to which columns count as orthogonal.

@@ -11,7 +11,7 @@ use crate::error::{InputError, ensure};
 /// Mean angular radius of the sun, in radians: 16 minutes of arc.
 pub const SUN_RADIUS: f64 = 0.004_654;
 
-/// Degree of the rule over the sky: doubling it changes the coefficients of 10 orders by less than 1e-5 of the first.
+/// Degree of the rule over the sky: doubling it changes the coefficients up to order 10 by less than 1e-5 of the first.
 /// The sky's peak around the sun has no finite degree.
 const SKY_DEGREE: usize = 255;
 

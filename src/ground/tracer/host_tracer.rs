@@ -51,12 +51,12 @@ pub struct HostTracer {
 }
 
 impl HostTracer {
-    /// Creates a tracer with an octree of the tuned parameters.
+    /// Creates a tracer with the tuned octree parameters.
     pub fn new(mesh: &Mesh, sides: Sides) -> Self {
         Self::with_octree(mesh, OctreeParameters::default(), sides)
     }
 
-    /// Creates a tracer with an octree of these parameters, which affect the time but never a hit.
+    /// Creates a tracer with these octree parameters, which affect the time but never a hit.
     pub fn with_octree(mesh: &Mesh, parameters: OctreeParameters, sides: Sides) -> Self {
         let scale = mesh_scale(mesh);
         let (octree, triangles) = (Octree::new(mesh, parameters), HostTriangle::all(mesh, scale));
@@ -129,7 +129,7 @@ impl HostTracer {
         let mut blocker = None;
         for (i, ray) in rays.iter().enumerate() {
             let host = self.host_ray(ray);
-            // The leaf that blocked an earlier ray often blocks this one too. Only a certain hit may replace the walk,
+            // The leaf that blocked an earlier ray often blocks this ray too. Only a certain hit may replace the walk,
             // because the walk finds rounded hits only in cells that the ray crosses.
             if let Some(leaf) = blocker.filter(|_| ANY) {
                 let mut best = Best::default();
@@ -236,8 +236,8 @@ impl HostTracer {
         all(rays, |rays, hits| self.nearest_each(rays, hits))
     }
 
-    /// Runs [`Self::occluded_before`] on any number of rays, on all worker threads, with one `t_max`, which is 1 for
-    /// rays whose direction vectors end at a light. Triangles that blocked one ray are tried first for the next, so
+    /// Runs [`Self::occluded_before`] on any number of rays, on all worker threads, with the same `t_max`, which is 1
+    /// for rays whose direction vectors end at a light. Triangles that blocked one ray are tried first for the next, so
     /// neighbouring rays should be consecutive.
     pub fn occluded_all(&self, rays: &[Ray], t_max: f32) -> (Vec<bool>, HostCounts) {
         all(rays, |rays, occluded| self.occluded_each(rays, t_max, occluded))

@@ -1,7 +1,7 @@
 //! Offsets of ray ends from surfaces, so that no ray hits the triangle at its start or at its end.
 //!
-//! One policy for all ray casters: points are lifted along the triangle's normal, to the side that the ray leaves by,
-//! at both ends of a segment. The distance depends on the position of the point:
+//! One policy for all ray casters: points are lifted along the triangle's normal, to the side on which the ray lies, at
+//! both ends of a segment. The distance depends on the position of the point:
 //!
 //! - it lies *on* a triangle: [`SurfacePoint::clearance`], a bound of rounding errors in the ray's origin and in the
 //!   test of that triangle;

@@ -15,8 +15,8 @@ pub fn mesh_scale(mesh: &Mesh) -> f64 {
     in_single_precision(scale_into(low.max(high), MAX_CORNER))
 }
 
-/// Clamps a scale to the normal and denormal numbers of single precision. Scenes below 2^-123, where numbers have few
-/// bits left, get a smaller scale than they need.
+/// Clamps a scale to the normal and denormal numbers of single precision. Scenes smaller than 2^-123, where numbers
+/// have few bits left, get a smaller scale than they need.
 pub fn in_single_precision(scale: f64) -> f64 {
     scale.clamp(power_of_two(-149), power_of_two(127))
 }

@@ -41,8 +41,8 @@ pub struct CompressedSegment {
 }
 
 impl CompressedSegment {
-    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` sees each step. Panics if
-    /// the number of vertices per cluster is 0, or the signal does not have one point per vertex.
+    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` is called after each step.
+    /// Panics if the number of vertices per cluster is 0, or the signal does not have one point per vertex.
     pub fn new(
         segment: usize,
         vertices: Vec<u32>,
@@ -68,7 +68,7 @@ impl CompressedSegment {
 /// Compressed transfer of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompressedTransfer {
-    /// The rows m of a transfer matrix.
+    /// The number m of rows of a transfer matrix.
     pub rows: usize,
     /// Number of vertices of the mesh.
     pub vertices: usize,

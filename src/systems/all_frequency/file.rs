@@ -1,6 +1,6 @@
 //! Files of all-frequency transfer. docs/npz.md describes their contents.
 //!
-//! A file never stores raw transfer, which takes gigabytes. It stores visibility and reflectance, from which each
+//! A file never stores raw transfer, which needs gigabytes. It stores visibility and reflectance, from which each
 //! segment can be computed on demand, and coded transfer.
 
 use std::io::{self, Write};

@@ -1,4 +1,4 @@
-//! The reflectance that transfer was computed for.
+//! The reflectance for which transfer was computed.
 
 use std::f64::consts::PI;
 

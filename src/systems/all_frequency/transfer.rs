@@ -4,10 +4,10 @@
 //! hat_j(s) F_i(R_p s) times the solid angle of s. A light with texel radiances l has the transferred radiance M l. An
 //! orthonormal Haar transform of each segment, of the light and of the rows of M, does not change this product.
 //!
-//! *Cost.* A vertex takes one evaluation of F per segment and visible direction in it. Hat functions two texels wide
+//! *Cost.* A vertex costs one evaluation of F per segment and visible direction in it. Hat functions two texels wide
 //! overlap the borders of segments: 68 x 68 directions instead of 64 x 64, 13 % more. *Memory*: visibility maps take 12
-//! KiB per vertex, and one segment 1 KiB per vertex and row of F: 614 MB and at most 512 MB for 50,000 vertices and 10
-//! rows.
+//! KiB per vertex, and one segment 1 KiB per vertex and row of F. For 50,000 vertices and 10 rows this is 614 MB and at
+//! most 512 MB.
 
 use std::fmt;
 use std::ops::Range;

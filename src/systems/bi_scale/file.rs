@@ -92,7 +92,7 @@ struct Shape {
 }
 
 impl BiScaleFile {
-    /// Values are multiples of 2 to the power of minus this; `None` for a file without matrix and biclusters.
+    /// Number f of fraction bits: values are multiples of 2^-f; `None` for a file without matrix and biclusters.
     pub fn fraction_bits(&self) -> Option<u32> {
         self.shapes().next().map(|shape| shape.fraction_bits)
     }

@@ -1,5 +1,5 @@
 //! Low-frequency bi-scale transfer, with which Figures 1 and 5 compare biclusters: a matrix per vertex from harmonics
-//! of the distant light to harmonics of the light around the vertex, both of one order (the paper's reference 3).
+//! of the distant light to harmonics of the light around the vertex, both of the same order (the paper's reference 3).
 
 use rayon::prelude::*;
 
@@ -82,7 +82,7 @@ impl LowFrequencyTransfer {
     }
 }
 
-/// The visible fraction of each light texel at the vertex of some rows. A column has at most one entry per vertex.
+/// The visible fraction of each light texel at the vertex of these rows. A column has at most one entry per vertex.
 fn visibility(matrix: &SparseMatrix, rows: std::ops::Range<usize>) -> Vec<f64> {
     let mut shares = vec![0.0; LIGHT_TEXELS];
     for entry in rows.flat_map(|row| matrix.row(row)) {

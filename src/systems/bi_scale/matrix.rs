@@ -42,7 +42,7 @@ pub(super) fn size_error(rows: usize, columns: usize) -> InputError {
 
 impl SparseMatrix {
     /// Creates a matrix of 0 rows and `columns` columns, with values in units of 2^-`fraction_bits`. Fails with
-    /// [`InputError`] for 0 columns, or more than 32 bits can count. Panics if `fraction_bits` exceeds
+    /// [`InputError`] for 0 columns, or more columns than 32 bits can count. Panics if `fraction_bits` exceeds
     /// [`MOST_FRACTION_BITS`].
     pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, InputError> {
         assert!(fraction_bits <= MOST_FRACTION_BITS, "a unit of 2^-30 or more, not 2^-{fraction_bits}");
@@ -53,7 +53,7 @@ impl SparseMatrix {
     }
 
     /// Converts numbers to multiples of their largest common power-of-two unit. Zeros of either sign are dropped. Fails
-    /// with [`InputError`] if no unit of at most [`MOST_FRACTION_BITS`] has multiples of 32 bits for all numbers.
+    /// with [`InputError`] unless all numbers are 32-bit multiples of a unit with at most [`MOST_FRACTION_BITS`].
     pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, InputError> {
         if let Some(&(row, column, value)) = matrix.entries.iter().find(|(.., value)| !value.is_finite()) {
             return Err(input_error!("expected finite values, found {value} in row {row}, column {column}"));
@@ -117,7 +117,7 @@ impl SparseMatrix {
         self.columns
     }
 
-    /// Values are multiples of 2 to the power of minus this.
+    /// Number f of fraction bits: values are multiples of 2^-f.
     pub fn fraction_bits(&self) -> u32 {
         self.fraction_bits
     }

@@ -21,8 +21,8 @@ use crate::transfer::{LocalFrame, Vertices};
 /// Number of vertices whose rows are computed together.
 const BLOCK: usize = 256;
 
-/// T of the vertices of visibility maps, map by map. Fails with [`InputError`] if there are no rows, or more than 32
-/// bits can count. Panics if the maps belong to other vertices.
+/// T of the vertices of visibility maps, map by map. Fails with [`InputError`] if there are no rows, or more rows than
+/// 32 bits can count. Panics if the maps belong to other vertices.
 pub fn transfer_matrix(
     vertices: &Vertices,
     maps: &VisibilityMaps,

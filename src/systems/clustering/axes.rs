@@ -2,7 +2,7 @@
 //!
 //! Orthonormal axes B do not increase distances: |x - x_0 - V c| is at least |B (x - x_0) - B V c| for all weights c,
 //! so the distance of B x from the affine span of B V is at most the distance of x from the subspace. Both are taken
-//! relative to a center g. B V is orthonormalised; a vector is dropped if its remainder is no longer than [`NOTHING`].
+//! relative to a center g. B V is orthonormalised; a vector is dropped if its remainder is at most [`NOTHING`] long.
 //!
 //! With S = |x - g| + |x_0 - g| and n' vectors, the dropped vectors lower a distance by at most sqrt(n') 2^-36 S, and
 //! the rounding of B x to f32 changes it by at most 2^-24 S, or 2^-146 where f32 is subnormal. The exact comparison of

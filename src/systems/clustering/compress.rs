@@ -214,7 +214,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     }
 }
 
-/// Distributes the budget to clusters; returns the number of vectors of each. Vectors are taken by decreasing reduction
+/// Distributes the budget to clusters; returns the number of vectors of each. Vectors are added by decreasing reduction
 /// of the squared error per point, D_i^2 / m_k; ties go to the lower cluster. A vector costs one weight per point of
 /// its cluster; vectors beyond the budget are skipped.
 pub(super) fn distribute(eigenvalues: &[Vec<f64>], sizes: &[usize], budget: usize) -> Vec<usize> {
@@ -262,8 +262,8 @@ impl Members {
     }
 }
 
-/// Each empty cluster, lowest first, takes the point of largest error (on ties, the lowest) from a cluster with other
-/// points; the point's error becomes 0. If no such point has an error, the remaining clusters stay empty.
+/// Each empty cluster, lowest first, gets the point with the largest error (on ties, the lowest) from a cluster with
+/// other points; the point's error becomes 0. If no such point has an error, the remaining clusters stay empty.
 pub(super) fn fill_empty(of_point: &mut [u32], errors: &mut [f64], clusters: usize) {
     let mut sizes = vec![0usize; clusters];
     of_point.iter().for_each(|&cluster| sizes[cluster as usize] += 1);

@@ -5,16 +5,16 @@
 //! | section | file |
 //! |---|---|
 //! | all | [`paper`]: by plain loops, for tests; read it first |
-//! | 3.3 | `signal.rs`: points of n numbers each; `subspace.rs`; `compressed.rs`: the result, a [`Clustering`] |
-//! | 4.1 | `options.rs`; `compress.rs`: LBG; `members.rs`; `fit.rs`, `gram.rs`, `products.rs`: principal components |
+//! | 3.3 | `signal.rs`: points of n numbers each; `compressed.rs`: subspaces, and the result, a [`Clustering`] |
+//! | 4.1 | `options.rs`; `compress.rs`: LBG; `fit.rs`, `products.rs`: principal components |
 //! | 4.2 | `nearest.rs`, `axes.rs`: the best cluster of each point |
-//! | 4.3 | `budget.rs`: vectors redistributed |
+//! | 4.3 | `compress.rs`: redistribution of vectors |
 //!
-//! The paper leaves open these choices: ties go to the lower cluster; an empty cluster takes the point of largest error
-//! from a cluster with other points; the component of largest magnitude of each vector is positive; loops end when no
-//! point moves. Distances are compared as in f64. A point whose squared error is at most 2^-40 of its squared distance
-//! from the mean lies in the subspace: its error is 0. Vectors whose eigenvalue is at most 2^-44 of the cluster's
-//! largest are dropped. Results have the same bits on every CPU and number of threads.
+//! The paper leaves open these choices: ties go to the lower cluster; an empty cluster gets the point with the largest
+//! error from a cluster with other points; the component of largest magnitude of each vector is positive; loops end
+//! when no point moves. Distances are compared as in f64. A point whose squared error is at most 2^-40 of its squared
+//! distance from the mean lies in the subspace: its error is 0. Vectors whose eigenvalue is at most 2^-44 of the
+//! cluster's largest are dropped. Results have the same bits on every CPU and number of threads.
 
 mod axes;
 mod compress;

@@ -21,7 +21,7 @@ pub(super) struct Packed<const N: usize> {
 }
 
 impl<const N: usize> Packed<N> {
-    /// Packs `count` vectors of a length; `vector` writes one.
+    /// Packs `count` vectors of `length` numbers; `vector` writes one of them.
     pub(super) fn new(count: usize, length: usize, mut vector: impl FnMut(usize, &mut [f64])) -> Self {
         let mut components = Vec::with_capacity(count.div_ceil(N) * length);
         let mut group = vec![0.0; N * length];
@@ -198,7 +198,7 @@ impl KeptProducts {
         Ok(products)
     }
 
-    /// Keeps the products of these points, unless they are too many.
+    /// Keeps the products of these points, unless there are too many points.
     pub(super) fn keep(&mut self, points: &[u32], products: Matrix) {
         *self = Self::default();
         if points.len() <= MOST_KEPT {

@@ -30,8 +30,8 @@ pub struct Reference<'a> {
 
 impl Reference<'_> {
     /// The radiance that a vertex sends towards `view` in its local frame, after at most `bounces` interreflections.
-    /// The time grows exponentially with the number of bounces, so this is for small meshes only. Panics if there is no
-    /// such vertex, or no BRDF of a material.
+    /// The time grows exponentially with the number of bounces, so this is only for small meshes. Panics if there is no
+    /// such vertex, or a material has no BRDF.
     pub fn exit_radiance(&self, vertex: usize, view: DVec3, bounces: u32) -> f64 {
         let frame = &self.vertices.frames()[vertex];
         let brdf = &self.brdfs[self.vertices.materials()[vertex] as usize];

@@ -1,4 +1,4 @@
-//! First-order effect of an accumulator of few bits on a solution: why half precision makes a room too dark, and more
+//! First-order effect of an accumulator with few bits on a solution: why half precision makes a room too dark, and more
 //! patches make it darker still.
 //!
 //! An accumulator S of p mantissa bits is a multiple of `q = 2^(floor(log2 |S|) - p)`. A term t added to S therefore
@@ -23,9 +23,9 @@ use crate::error::InputError;
 /// Precision and layout of a row's sums.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Accumulator {
-    /// Explicit mantissa bits: 10 of fp16, 23 of fp32.
+    /// Explicit mantissa bits: 10 for fp16, 23 for fp32.
     pub mantissa: u8,
-    /// The exponent of the smallest normal number, below which steps no longer shrink: -14 of fp16, -126 of fp32.
+    /// The exponent of the smallest normal number, below which steps no longer shrink: -14 for fp16, -126 for fp32.
     pub least_exponent: i32,
     /// Rounding of the sums.
     pub rounding: Rounding,

@@ -37,8 +37,8 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// Cuts a scene's faces. A face is a triangle, or two successive triangles of one material that form a flat convex
-    /// quadrilateral.
+    /// Cuts a scene's faces. A face is a triangle, or two successive triangles of the same material that form a flat
+    /// convex quadrilateral.
     pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, InputError> {
         let mesh = scene.mesh();
         let materials = scene.materials().iter().map(diffuse).collect::<Result<Vec<_>, _>>();
@@ -74,9 +74,9 @@ impl Patches {
         self.extent
     }
 
-    /// Returns the parts of a patch that no solid covers: the patch itself if nothing covers it, none if it is wholly
-    /// covered. Radiosities and form factors are means over the open parts. The rule is in `open.rs`. Panics if there
-    /// is no such patch.
+    /// Returns the parts of a patch that no solid covers: the patch itself if nothing covers it, no part if it is
+    /// wholly covered. Radiosities and form factors are means over the open parts. The rule is in `open.rs`. Panics if
+    /// there is no such patch.
     pub fn open_parts(&self, patch: usize) -> &[Patch] {
         let whole = std::slice::from_ref(&self.list[patch]);
         self.open.get(&(patch as u32)).map_or(whole, Vec::as_slice)

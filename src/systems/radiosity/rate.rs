@@ -46,7 +46,7 @@ pub struct Timing {
 pub struct TimedIteration {
     /// Number of passes.
     pub passes: usize,
-    /// Number of draws: a pass with luminance packing takes four, one per channel of its target.
+    /// Number of draws: a pass with luminance packing needs four draws, one per channel of its target.
     pub draws: usize,
     /// Time of the whole iteration: draws and changes of state in sequence, because each draw reads the previous draw's
     /// results.

@@ -11,7 +11,7 @@ use crate::geom::Mesh;
 pub struct BitsLeft {
     /// Number of triangles with non-zero area.
     pub triangles: u64,
-    /// Number of these whose normal is below one step in every component; 0 for a float format.
+    /// Number of these triangles whose normal is below one step in every component; 0 for a float format.
     pub below_step: u64,
     /// `true` if the format is fixed-point, and so has a step.
     pub fixed_point: bool,
@@ -30,7 +30,7 @@ impl BitsLeft {
         found
     }
 
-    /// [`BitsLeft::below_step`] as a fraction of [`BitsLeft::triangles`], in [0, 1]; 0 if there are none.
+    /// [`BitsLeft::below_step`] as a fraction of [`BitsLeft::triangles`], in [0, 1]; 0 without triangles.
     pub fn share(&self) -> f64 {
         if self.triangles == 0 { 0.0 } else { self.below_step as f64 / self.triangles as f64 }
     }

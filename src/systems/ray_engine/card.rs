@@ -20,7 +20,7 @@ use crate::geom::{Hit, Mesh, Ray};
 /// Resources of a bucket of rays: textures with the rays, a color target for ids and a depth buffer for t.
 #[derive(Debug)]
 pub(super) struct RayTextures {
-    /// All ray textures created so far: sampler, size, texture. Origins take one texel for all rays or one per ray.
+    /// All ray textures created so far: sampler, size, texture. Origins need one texel for all rays, or one per ray.
     made: Vec<(usize, Region, TextureId)>,
     /// Samplers and textures of the rays loaded last.
     textures: Vec<(usize, TextureId)>,

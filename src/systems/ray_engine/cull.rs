@@ -77,7 +77,7 @@ impl Errors {
     }
 }
 
-/// Constants with which no triangle is culled: none satisfies |ab| + |ac| <= -1.
+/// Constants with which no triangle is culled: no triangle satisfies |ab| + |ac| <= -1.
 pub(super) fn nothing() -> Vec<[u32; 4]> {
     let mut out = vec![[0.0_f32; 4]; COUNT];
     out[COUNT - 1][2] = -1.0;
@@ -129,7 +129,7 @@ impl Extent {
     }
 }
 
-/// Tolerances of the culling tests, rounding included.
+/// Tolerances of the culling tests, including rounding.
 struct Bounds {
     /// Tolerance of n.ao, relative to |n|.
     n_ao: DVec3,

@@ -118,8 +118,8 @@ impl Kernel {
         Ok(Self { edges: EdgeRule::SharedEdges, ..shared })
     }
 
-    /// Chooses the program for rays in bytes, of any origin. Fails with [`EngineError::NoByteRays`] if both faces can
-    /// be hit or the device stores rays as floats, and as [`Self::choose`] does.
+    /// Chooses the program for rays of any origin that are stored as bytes. Fails with [`EngineError::NoByteRays`] if
+    /// both faces can be hit or the device stores rays as floats, and as [`Self::choose`] does.
     pub fn with_byte_rays(profile: &Profile, sides: Sides) -> Result<Self, EngineError> {
         match (Self::choose(profile, false, sides)?.form, sides) {
             (Form::AnyOrigin, Sides::Front) => {

@@ -6,7 +6,7 @@
 /// The two rates of equation 11.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CostRates {
-    /// Pixels per second, the pixel program included; above 0.
+    /// Pixels per second, including the pixel program; above 0.
     pub fill_pixels_per_s: f64,
     /// Bytes per second from the card to the host; above 0, and infinite for a card whose results are not read back.
     pub readback_bytes_per_s: f64,

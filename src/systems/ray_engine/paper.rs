@@ -1,5 +1,5 @@
 //! Equations (1) to (8) in plain f64, which the kernels approximate. [`crate::geom::exact`] decides in exact arithmetic
-//! whether a ray hits. (src/base/oracle/report.rs:28: "rays that hit exactly" → "rays that hit in exact arithmetic")
+//! whether a ray hits.
 
 use glam::DVec3;
 

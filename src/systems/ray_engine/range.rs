@@ -138,7 +138,7 @@ impl Range {
     /// Chooses the edge scale of a triangle whose largest sum is `sum` at k = 1, and whose normal's largest component
     /// is `normal`.
     ///
-    /// Fixed point: 1, as in the paper, or less if 1 does not fit. Floats of few exponents: the scale that brings the
+    /// Fixed point: 1, as in the paper, or less if 1 does not fit. Floats with few exponents: the scale that brings the
     /// normal near 1, so that neither its products nor the quotient by n.d leave the range. A power of two has no other
     /// effect.
     pub(super) fn edge_scale(&self, sum: f64, normal: f64) -> f64 {
@@ -169,7 +169,7 @@ impl Range {
         self.kind != RangeKind::Wide
     }
 
-    /// Range minus the errors; at least half the range, for formats of very few bits.
+    /// Range minus the errors; at least half the range, for formats with very few bits.
     fn room(&self, errors: f64) -> f64 {
         (self.end - errors).max(self.end / 2.0)
     }

@@ -2,7 +2,7 @@
 //!
 //! The Ray Engine's Figure 1 shows this method next to traced reflections. The map holds the scene without its mirrors,
 //! in 8-bit texels, as seen from the visible mirror point whose pixel is nearest to the mean of all mirror pixels. A
-//! vertex program reflects the view vector, and the pixel program looks the reflected vector up. So objects appear as
+//! vertex program reflects the view vector, and the pixel program looks up the reflected vector. So objects appear as
 //! if they were infinitely far away: a reflection does not touch its object, and mirrors do not reflect each other.
 
 use glam::{DVec2, DVec3};
@@ -30,7 +30,7 @@ use crate::tracer::{Caster, HostTracer};
 
 /// Texels along an edge of the map.
 const SIDE: u32 = 128;
-/// Pixel program that looks the reflected vector up in the map; c0 is the reflectance.
+/// Pixel program that looks up the reflected vector in the map; c0 is the reflectance.
 const LOOKUP: &str = "ps_1_1\ntex t0\nmul r0, t0, c0\n";
 
 /// Card that draws mirrors.

@@ -102,7 +102,7 @@ pub(super) struct SpecularRay {
     pub(super) flux_scale: f64,
 }
 
-/// Returns the specular rays from a mirror (one) or glass (one under total internal reflection, otherwise two); none
+/// Returns the specular rays from a mirror (one) or glass (one under total internal reflection, otherwise two); no rays
 /// from other surfaces.
 ///
 /// Rays carry radiance divided by the squared index of refraction, which is invariant at a boundary (Nicodemus 1963).

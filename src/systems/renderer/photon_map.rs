@@ -91,7 +91,7 @@ fn build(photons: &mut [Photon], axes: &mut [u8]) {
     }
     let axis = widest(photons);
     let middle = photons.len() / 2;
-    // `select_nth_unstable` is deterministic, also for equal keys.
+    // `select_nth_unstable` is deterministic, even for equal keys.
     photons.select_nth_unstable_by(middle, |a, b| a.at[axis].total_cmp(&b.at[axis]));
     axes[middle] = axis as u8;
     let (left, right) = photons.split_at_mut(middle);

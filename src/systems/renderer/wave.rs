@@ -1,4 +1,4 @@
-//! Breadth-first evaluation: all rays of a bundle, then all rays that they spawn, until none is left.
+//! Breadth-first evaluation: all rays of a bundle, then all rays that they spawn, until no ray is left.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -11,7 +11,7 @@ pub enum FigureConfidence {
     Printed,
     /// Confirmed by several independent public copies of the table.
     Confirmed,
-    /// Public copies differ; the source names the copy that was taken, and the reason.
+    /// Public copies differ; the source names the copy that is used, and the reason.
     Disputed,
     /// From memory of the table; no public copy was found.
     Unconfirmed,

@@ -138,8 +138,8 @@ fn what_exceeds_the_budget_is_passed_over() {
     assert_eq!(found.of_point(), paper::compress(&signal, &options).expect("compressed").of_point());
 }
 
-/// Each empty cluster, lowest first, takes the point of largest error (on ties, the lowest), but not a cluster's last
-/// point.
+/// Each empty cluster, lowest first, gets the point with the largest error (on ties, the lowest), but not a cluster's
+/// last point.
 #[test]
 fn empty_clusters_take_the_worst_points_but_no_last_ones() {
     // Points 0, 1 and 2 are equal, so clusters 1 and 2 are empty at first.

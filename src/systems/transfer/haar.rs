@@ -6,7 +6,7 @@
 //! the upper left quarter of its square, differences across columns in the upper right, across rows in the lower left,
 //! across both in the lower right.
 
-/// The transform of squares of one size.
+/// The transform of squares of a fixed size.
 #[derive(Clone, Debug)]
 pub struct Haar {
     side: usize,

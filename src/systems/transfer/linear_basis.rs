@@ -1,7 +1,7 @@
 //! The hat functions of equation 10: the weight of each light texel in each fine direction.
 //!
 //! With a width of two texels the hat function of a texel is bilinear on its face: 1 at its center, 0 at the centers of
-//! its neighbors. In a fine direction at distances a and b in 0..1/2 texels from the center of the texel that contains
+//! its neighbors. In a fine direction at distances a and b (0 to 1/2 texel) from the center of the texel that contains
 //! it, four texels have the weights (1 - a)(1 - b), a (1 - b), (1 - a) b and a b.
 //!
 //! - *Across an edge of the cube* the neighbor is the adjacent texel of the next face; along an edge, the texels of
@@ -92,8 +92,8 @@ fn offset(fine: usize) -> (isize, f64) {
     (if from_center < 0.0 { -1 } else { 1 }, from_center.abs())
 }
 
-/// The texel at a row and column of a face. One beyond the border, it is the adjacent texel of the neighboring face;
-/// `None` beyond a corner.
+/// The texel at a row and column of a face. One texel beyond the border, it is the adjacent texel of the neighboring
+/// face; `None` beyond a corner.
 fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
     let side = LIGHT_SIDE.cast_signed();
     let is_inside = |at: isize| (0..side).contains(&at);

@@ -1,10 +1,10 @@
 //! Ray-triangle tests in f64 with a proved error bound: each test returns a certain answer or no answer.
 //!
 //! **Why nothing overflows or underflows.** A finite f32 is a multiple of 2^-149 below 2^128. A difference of two is a
-//! multiple of 2^-149 below 2^129, also after rounding to f64 (rounding a multiple of 2^-k, far above the least normal
-//! number, gives a multiple of 2^-k). Products of three such values are multiples of 2^-447 below 2^387, sums of six
-//! stay below 2^391; quotients lie between 2^-838 and 2^838. All of it is far inside the normal range of f64, so every
-//! operation has a relative error of at most u = 2^-53, and a computed zero is a true zero.
+//! multiple of 2^-149 below 2^129, even after it is rounded to f64 (rounding a multiple of 2^-k, far above the least
+//! normal number, gives a multiple of 2^-k). Products of three such values are multiples of 2^-447 below 2^387, sums of
+//! six stay below 2^391; quotients lie between 2^-838 and 2^838. All these values are far inside the normal range of
+//! f64, so every operation has a relative error of at most u = 2^-53, and a computed zero is a true zero.
 //!
 //! **The bound.** Every value here is a sum of at most six products `x * y * z` whose factors are components of d
 //! (exact) or differences of corners and origin (one rounding each). A product has at most eight roundings: three of

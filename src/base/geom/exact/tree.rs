@@ -152,7 +152,7 @@ fn build(items: &mut [(u32, DVec3)], offset: usize, corners: &[[[f32; 3]; 3]], n
 }
 
 impl Probe {
-    /// Returns a lower bound (at least 0) of the t at which the ray enters the box; `None` if it certainly misses it.
+    /// Returns a lower bound (at least 0) of the t at which the ray enters the box; `None` if it certainly misses.
     fn enter(&self, node: &BoxNode) -> Option<f64> {
         let (mut start, mut end) = (0.0_f64, f64::INFINITY);
         for axis in 0..3 {

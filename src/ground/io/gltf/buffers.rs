@@ -82,7 +82,7 @@ impl<'a> Buffers<'a> {
 
 fn local(uri: &str) -> Option<PathBuf> {
     let path = percent_decode_str(uri).decode_utf8().ok()?;
-    // Reject schemes, drives, and the separator of some systems only.
+    // Reject schemes, drives, and the separator that only some systems use.
     if path.is_empty() || path.contains([':', '\\', '\0']) {
         return None;
     }

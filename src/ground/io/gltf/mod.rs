@@ -3,8 +3,8 @@
 //! The reader supports the meshes of the default scene, each placed by its nodes: triangles, strips and fans, with or
 //! without indices; positions, normals and the first texture coordinates; base color and emission of materials. It
 //! ignores textures, vertex colors, points, lines, cameras, lights, animations, and application-specific attributes and
-//! data. It rejects skinned meshes and morph targets, because their triangles differ from the stored
-//! ones, and sparse accessors.
+//! data. It rejects sparse accessors; it also rejects skinned meshes and morph targets, because their triangles differ
+//! from the stored ones.
 //!
 //! glTF has y up, scenes have z up: (x, y, z) becomes (x, -z, y). Positions are transformed in double precision and
 //! rounded once.

@@ -1,8 +1,8 @@
 //! Material libraries (MTL).
 //!
-//! The reader uses `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`, and ignores all others (ambient colours, textures). The name
-//! of a material, in UTF-8 or Latin-1, extends to the end of its line. In other lines a word that begins with `#`
-//! begins a comment.
+//! The reader uses `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`, and ignores all other statements (ambient colours, textures).
+//! The name of a material, in UTF-8 or Latin-1, extends to the end of its line. In other lines a word that begins with
+//! `#` begins a comment.
 //!
 //! | `illum` | surface |
 //! |---|---|
@@ -82,7 +82,7 @@ impl MtlReader<'_> {
     fn line(&mut self, line: usize, text: &[u8]) -> Result<(), InputError> {
         let words = statement(text);
         let Some((&key, values)) = words.split_first() else { return Ok(()) };
-        // What is expected, whether it is a color, and the allowed numbers, all of at least 0.
+        // What is expected, whether it is a color, and the allowed numbers, all at least 0.
         let (expected, is_color, allowed): (_, _, fn(f32) -> bool) = match key {
             b"newmtl" => return self.material(line, text[6..].trim_ascii()),
             b"Kd" | b"Ks" if self.lenient => ("three numbers of at least 0", true, |_| true),

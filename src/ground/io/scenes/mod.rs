@@ -1,7 +1,7 @@
 //! Scenes of the project by name: files in this folder, and rooms built in code.
 //!
 //! A scene's files are those of `crossbar scene NAME --out`, its mesh compressed: `NAME.toml`, `NAME.mtl` and
-//! `NAME.obj.gz`. Units are metres, z is up, fronts face outwards (of a room: inwards).
+//! `NAME.obj.gz`. Units are metres, z is up, fronts face outwards (inwards in a room).
 
 use std::io::Read as _;
 use std::path::Path;
@@ -75,8 +75,8 @@ pub fn named(name: &str) -> Option<Scene> {
     })
 }
 
-/// Reads a scene's files. They are part of the program, and tests read every one, so reading can fail only where memory
-/// runs out, which ends the program at any other allocation too.
+/// Reads a scene's files. They are part of the program, and tests read every one, so reading fails only if memory runs
+/// out, and then any other allocation would end the program too.
 fn read(name: &str, views: &str, mesh: &[u8], materials: &str) -> Scene {
     let mut obj = Vec::new();
     GzDecoder::new(mesh).read_to_end(&mut obj).expect("a compressed file, and memory for its text");

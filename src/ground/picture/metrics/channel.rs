@@ -11,7 +11,7 @@ fn channels_error(left: String, right: String) -> InputError {
         help "name those that both have with `--channel`")
 }
 
-/// Position and values of the largest difference of two channels.
+/// Position and values of the largest difference between two channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstSample {
     /// Column, from the left.
@@ -24,7 +24,7 @@ pub struct WorstSample {
     pub right: f64,
 }
 
-/// Difference of two channels with the same name. NaN equals NaN, and -0 equals +0.
+/// Difference between two channels with the same name. NaN equals NaN, and -0 equals +0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelDifference {
     /// Name of the channel.

@@ -3,7 +3,7 @@
 //!
 //! Models are about 2.5 units high around the origin, with fronts towards -y and a little +x. The Buddha's coat was
 //! designed to bring omega close to its small value in Table 1 of the paper on all-frequency transfer, so our omega is
-//! not evidence. The others were shaped by eye.
+//! not evidence. The other models were shaped by eye.
 
 use super::isosurface::{Folds, RoundedBody, RoundedPiece};
 use super::resample::ClosedSurface;
@@ -25,7 +25,7 @@ fn turned(body: &RoundedBody, vertices: usize) -> ClosedSurface {
     surface
 }
 
-/// A standing Buddha in folds, with both arms above his head, on a pedestal of petals.
+/// A standing Buddha in a folded coat, with both arms above his head, on a pedestal of petals.
 pub(super) fn buddha(vertices: usize) -> ClosedSurface {
     let mut body = RoundedBody::default();
     // A folded coat that is open in front, and the legs in it.

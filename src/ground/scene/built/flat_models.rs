@@ -16,7 +16,7 @@ use crate::elementary::on_circle;
 use crate::geom::Mesh;
 use crate::geom::vector::{least_axis, narrow, unit};
 
-/// Model of parts.
+/// Model composed of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FlatModel {
     /// A chair with round legs, arms and cushions: 16,101 vertices; frame, seat, back.
@@ -92,8 +92,8 @@ impl FlatParts {
         corners.flat_map(|(corners, &material)| corners.map(|at| key(at, material))).collect::<BTreeSet<_>>().len()
     }
 
-    /// Builds the parts with the shortest edges that give at most this many vertices, repeated ones not counted; edge
-    /// lengths are tried from the longest in steps of one percent.
+    /// Builds the parts with the shortest edges that give at most this many vertices, without counting repeated
+    /// vertices; edge lengths are tried from the longest in steps of one percent.
     fn finest(vertices: usize, build: fn(&mut Self)) -> Self {
         let of = |edge: f64| {
             let mut parts = Self { edge, ..Self::default() };

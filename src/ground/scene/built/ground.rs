@@ -7,7 +7,7 @@ use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::vector::{area_vector, narrow, unit, wide};
 
-/// Vertices along an edge of the ground of the paper on all-frequency transfer (its section 7): 36,864 in all.
+/// Vertices along an edge of the ground in the paper on all-frequency transfer (its section 7): 36,864 in all.
 pub const GROUND_SIDE: u32 = 192;
 
 /// Distance of a ground below a model's flat base, relative to the longest side of the model's box: far beyond

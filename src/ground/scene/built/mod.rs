@@ -1,9 +1,9 @@
 //! Models built by the project: exact numbers of vertices or faces, the same bits on every platform.
 //!
-//! Fronts face outwards (of a room: inwards). Coordinates are computed in f64 by additions, products, square roots and
+//! Fronts face outwards (inwards in a room). Coordinates are computed in f64 by additions, products, square roots and
 //! [`crate::elementary`], and rounded to f32 once.
 //!
-//! - [`rooms`]: closed rooms of few walls;
+//! - [`rooms`]: closed rooms with few walls;
 //! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
 //! - [`transfer_models`]: meshes with the vertex counts of other papers' models, normals and texture coordinates;
 //! - `bunny`, `bodies`: the surfaces of these models; `isosurface` makes bodies of rounded pieces, `resample` gives a

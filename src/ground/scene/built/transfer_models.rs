@@ -1,6 +1,6 @@
 //! Models with the vertex counts of the models in the papers on compressed transfer (Table 1 of each): the Stanford
-//! bunny, two polygons of which one shadows the other, and stand-ins for unavailable models, a Buddha, a bird, a head
-//! and an armor.
+//! bunny, two polygons of which one shadows the other, and stand-ins for unavailable models (a Buddha, a bird, a head
+//! and an armor).
 //!
 //! All have normals and texture coordinates. All but the polygons are closed; at the texture's seam the mesh repeats
 //! vertices, which have the same position, normal and tangent and are counted once.
@@ -23,7 +23,7 @@ use crate::geom::vector::{narrow, unit};
 pub enum TransferModel {
     /// A bird with 48,688 vertices, as in the paper on clustered principal components.
     Bird,
-    /// A Buddha in many folds with 49,990 vertices, as in the paper on clustered principal components.
+    /// A Buddha in a folded coat with 49,990 vertices, as in the paper on clustered principal components.
     FoldedBuddha,
     /// A head with 50,060 vertices, as in the paper on clustered principal components.
     Head,

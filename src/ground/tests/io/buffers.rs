@@ -2,7 +2,7 @@ use std::path::Path;
 
 use crossbar_ground::io::parse_gltf;
 
-/// Buffers are read from files in the model's folder only.
+/// Buffers are read only from files in the model's folder.
 #[test]
 fn uris_stay_within_the_folder() {
     let read = |uri: &str| {

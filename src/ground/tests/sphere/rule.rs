@@ -3,8 +3,8 @@ use crossbar_ground::sphere::DirectionRule;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Light inside a bowl, whose horizon has one height all around; a rule of rings resolves that height only in steps of
-/// a ring.
+/// Light inside a bowl, whose horizon has the same height all around; a rule of rings resolves that height only in
+/// steps of a ring.
 #[test]
 fn horizons_of_any_height_are_told_to_a_fraction_of_a_ring() {
     let worst = |rule: &DirectionRule| {

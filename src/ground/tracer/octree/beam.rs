@@ -40,7 +40,7 @@ pub struct BeamCells {
 }
 
 impl Beam {
-    /// Builds the beam of some rays; `None` if they share no face of the cube, or there are none.
+    /// Builds the beam of some rays; `None` if there are no rays, or they share no face of the cube.
     pub fn of(rays: &[Ray]) -> Option<Self> {
         let axis = common_axis(rays)?;
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -79,7 +79,7 @@ impl Beam {
 }
 
 impl Octree {
-    /// Returns the first cell with triangles that a ray of the beam may meet, or all of them; GPU cells are not
+    /// Returns the first cell with triangles that a ray of the beam may meet, or all such cells; GPU cells are not
     /// subdivided. Never omits a cell that [`Octree::traverse`] would visit for a ray of the beam.
     pub fn reached(&self, beam: &Beam, gpu: Option<&GpuCells>, all: bool) -> BeamCells {
         let middle = self.corner + self.size / 2.0;

@@ -65,7 +65,7 @@ impl GpuCells {
         gather(octree, node, &mut all);
         all.sort_unstable();
         all.dedup();
-        // GPU cells are not nested: nothing to find below.
+        // GPU cells are not nested, so there are none below.
         if all.len() < *range.start() || all.is_empty() {
             return;
         }

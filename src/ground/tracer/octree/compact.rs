@@ -9,7 +9,7 @@
 //! - A stack replaces recursion: it holds cells that have children left to visit; a cell whose last child is entered is
 //!   not pushed.
 //!
-//! Parameters come from the reference's own functions, so both enter the same cells at the same parameters, to the bit.
+//! The reference's functions compute the parameters, so both traversals enter the same cells at the same parameters.
 
 use glam::DVec3;
 

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-/// Returns `true` if the triangle, its corners given relative to the center of the box, touches the closed box of these
-/// half sides. Rounding can make it accept a triangle that misses by less than 1e-14 of the corners' magnitude, and
-/// reject a triangle that overlaps by less, so callers grow the box.
+/// Returns `true` if the triangle, with corners relative to the center of the box, touches the closed box of these half
+/// sides. Rounding can make it accept a triangle that misses by less than 1e-14 of the corners' magnitude, and reject a
+/// triangle that overlaps by less, so callers grow the box.
 pub(super) fn touches(corners: &[DVec3; 3], half: DVec3) -> bool {
     let [a, b, c] = *corners;
     for axis in 0..3 {

@@ -29,7 +29,7 @@ pub enum Flow {
 /// Counters of traversal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TraversalCounts {
-    /// Cells entered, the root and split cells included.
+    /// Number of cells entered, including the root and split cells.
     pub cells: u64,
     /// Number of leaves entered.
     pub leaves: u64,
@@ -51,8 +51,8 @@ pub struct Visit<'a> {
     pub triangles: &'a [u32],
     /// `true` if the cell is a GPU cell, whose triangles are sent to the card together.
     pub gpu: bool,
-    /// Parameters at which the ray enters and leaves it, in multiples of the ray's direction. The entry may lie behind
-    /// the origin.
+    /// Parameters at which the ray enters and leaves the cell, in multiples of the ray's direction. The entry may lie
+    /// behind the origin.
     pub t: [f64; 2],
 }
 
@@ -63,7 +63,7 @@ pub(super) type Planes = [[f64; 3]; 2];
 struct Walk<'a, F> {
     octree: &'a Octree,
     gpu: Option<&'a GpuCells>,
-    /// Cells that the ray leaves up to this parameter are skipped.
+    /// Cells that the ray leaves at or before this parameter are skipped.
     from: f64,
     /// Bits of child numbers flipped by mirroring.
     mirror: u32,
@@ -86,7 +86,7 @@ impl Octree {
     }
 
     /// Like [`Self::traverse`], for a ray that has left a cell at `from`, in multiples of its direction: skips cells
-    /// that it leaves no later.
+    /// that it has left by then.
     pub fn traverse_from<'a>(
         &'a self,
         ray: &Ray,

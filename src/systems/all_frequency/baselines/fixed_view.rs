@@ -60,7 +60,7 @@ impl FixedView<'_> {
         row
     }
 
-    /// Radiance of each map's vertex towards an eye under each of some lights. A light is given by the radiances of the
+    /// Radiance of each map's vertex towards an eye under each light. A light is given by the radiances of the
     /// cube's texels; a truncated light is reconstructed first
     /// ([`HaarLight::radiances`](crate::transfer::light::HaarLight::radiances)). The radiance is 0 if the eye is below
     /// the horizon. Panics if a light does not have 6,144 texels.

@@ -1,4 +1,4 @@
-//! Transfer matrices whose rows and columns are spherical harmonics of one order.
+//! Transfer matrices whose rows and columns are spherical harmonics of the same order.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -58,7 +58,7 @@ impl<'a> HarmonicTransfer<'a> {
     }
 
     /// Radiance of each map's vertex towards an eye under a light given by coefficients; 0 if the eye is below the
-    /// horizon. Panics if there is not a coefficient per function.
+    /// horizon. Panics unless there is one coefficient per function.
     pub fn radiance(&self, eye: DVec3, light: &[[f64; 3]]) -> Vec<[f64; 3]> {
         assert_eq!(light.len(), function_count(self.order), "a coefficient per function");
         let incident = |fine: usize| {

@@ -1,7 +1,7 @@
 //! The methods to which Figure 1 compares the paper's method, with its visibility and reflectance:
 //!
 //! - [`FixedView`]: \[NRH03\], transfer with one row per vertex for a fixed view, and a light of few wavelets;
-//! - [`HarmonicTransfer`]: \[SKS02, KSS02\], matrices of spherical harmonics, and a light of equally few harmonics.
+//! - [`HarmonicTransfer`]: \[SKS02, KSS02\], matrices of spherical harmonics, and a light of as many harmonics.
 //!
 //! Both compute in f64 without compression of transfer. With all coefficients of the light, [`FixedView`] also gives
 //! the reference picture without factorisation and coding.

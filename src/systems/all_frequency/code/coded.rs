@@ -135,7 +135,7 @@ impl CodedSegment {
 
     /// Quantises a compressed segment with one absolute step for all representatives. Each representative is first
     /// multiplied by the root mean square of its weights, so that its weights are about 1; numbers beyond 16 bits are
-    /// clamped. Weights are coded by the options. Panics as [`CodedTransfer::new`] does.
+    /// clamped. Weights are coded as in the options. Panics as [`CodedTransfer::new`] does.
     pub fn code_in_steps(part: &CompressedSegment, step: f64, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let sizes = mean_weights(&part.clustering, &firsts(&counts(&part.clustering)));
@@ -148,7 +148,7 @@ impl CodedSegment {
         Self::with_steps(part, options, steps(&largest, options.representative_bits, options.scale))
     }
 
-    /// Quantises representatives with these steps, and weights by the options.
+    /// Quantises representatives with these steps, and weights as in the options.
     fn with_steps(part: &CompressedSegment, options: CodeOptions, representative_steps: Vec<f32>) -> Self {
         let clustering = &part.clustering;
         assert!(clustering.subspaces().len() <= 1 << 16, "clusters that 16 bits can number");

@@ -42,8 +42,8 @@ impl CodeOptions {
     }
 }
 
-/// The step that maps numbers up to `largest` to signed integers of `bits` bits, as an f32, as in files; 0 if `largest`
-/// is 0 or the step underflows.
+/// The step, an f32 as in files, that maps numbers up to `largest` to signed integers of `bits` bits; 0 if `largest` is
+/// 0 or the step underflows.
 pub(super) fn step(largest: f64, bits: u8) -> f32 {
     let most = f64::from((1_u32 << (bits - 1)) - 1);
     let step = (largest / most) as f32;

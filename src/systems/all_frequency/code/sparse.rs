@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 /// Number of rows of a block; a byte holds the index of a row in its block.
 pub const BLOCK_ROWS: usize = 256;
 
-/// Rows of integers in blocks of [`BLOCK_ROWS`], the last one shorter. For each column of a block, the non-zero numbers
-/// are stored in order of rows, each with its row in the block.
+/// Rows of integers in blocks of [`BLOCK_ROWS`]; the last block may be shorter. For each column of a block, the
+/// non-zero numbers are stored in order of rows, each with its row in the block.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SparseRows {
     rows: usize,

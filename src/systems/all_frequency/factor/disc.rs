@@ -216,7 +216,7 @@ fn inside(map: ParabolicMap) -> Vec<usize> {
     (0..map.texels()).filter(|texel| map.direction(texel % map.side(), texel / map.side()).z > 0.0).collect()
 }
 
-/// Errors of an approximation by harmonics of one order on both sides, at samples above the horizon. Coefficients are
+/// Errors, at the samples, of an approximation by harmonics of the same order for view and light. Coefficients are
 /// integrals of f times the harmonics, with f = 0 below the horizon: sums over these samples, weighted by solid angles.
 /// Fails with [`InputError`] if a matrix is too large. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
 pub fn harmonic_errors(samples: &HemisphereSamples, order: usize) -> Result<ProductErrors, InputError> {

@@ -40,7 +40,7 @@ impl ProductSymmetry {
     }
 }
 
-/// The texel (row times side plus column) to which a motion takes `texel`.
+/// The texel (row times side plus column) to which a motion moves `texel`.
 pub(super) fn moved(motion: Motion, side: usize, texel: usize) -> usize {
     let last = side.cast_signed() - 1;
     // Coordinates are twice the distance from the middle.
@@ -49,7 +49,7 @@ pub(super) fn moved(motion: Motion, side: usize, texel: usize) -> usize {
     row * side + column
 }
 
-/// The texel that a motion takes to `texel`.
+/// The texel that a motion moves to `texel`.
 pub(super) fn moved_back(motion: Motion, side: usize, texel: usize) -> usize {
     let [[a, b], [c, d]] = motion;
     moved([[a, c], [b, d]], side, texel)

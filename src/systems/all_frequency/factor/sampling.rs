@@ -128,7 +128,7 @@ impl FactorSampling {
     }
 }
 
-/// The first texel of a map that one of `motions` takes to `texel`, and the motion.
+/// The first texel of a map that one of `motions` moves to `texel`, and the motion.
 fn first(motions: &'static [Motion], side: usize, texel: usize) -> (usize, Motion) {
     let from = |&motion: &Motion| (moved_back(motion, side, texel), motion);
     motions.iter().map(from).min_by_key(|&(first, _)| first).unwrap_or((texel, [[1, 0], [0, 1]]))

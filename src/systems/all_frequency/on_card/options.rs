@@ -13,7 +13,7 @@ pub enum ProductPlace {
     /// The host multiplies at each vertex, and the card interpolates colors: the authors' implementation.
     Vertices(VertexColors),
     /// The card multiplies at each pixel: the authors' proposal. A diffuse surface has one term that does not depend on
-    /// the view, so vertex colors are drawn instead, with an identical picture.
+    /// the view, so vertex colors are drawn instead; the picture is identical.
     Pixels(ProductOptions),
 }
 
@@ -63,8 +63,8 @@ pub struct ProductOptions {
     pub map_format: TexelFormat,
     /// The interpolation between texels of G.
     pub filter: MapFilter,
-    /// The number of bits (2 to 24) of signed fractions to which G is rounded before it is stored; `None`: rounding
-    /// only by its format.
+    /// The number of bits (2 to 24) of signed fractions to which G is rounded before it is stored; `None`: G is rounded
+    /// only to its format.
     pub map_bits: Option<u32>,
     /// The format of T_p in vertices.
     pub radiance: RadianceFormat,

@@ -75,7 +75,7 @@ pub fn host_of_table_1() -> Result<HostModel, HostError> {
     };
     let seconds: f64 = TABLE_1.iter().map(|model| 10.0 / model.frames_in_ten_seconds[1] as f64).sum();
     let work = TABLE_1.iter().map(work).sum::<u64>();
-    // The model takes whole seconds, so the work and its time are multiplied by a thousand.
+    // The model accepts only whole seconds, so the work and its time are multiplied by a thousand.
     let counts = HostCounts::default().with(HostOperation::MultiplyAdd, 1000 * work);
     HostModel::calibrate(&counts, (1000.0 * seconds).round() as u64, 1)
 }

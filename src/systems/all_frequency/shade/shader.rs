@@ -90,7 +90,7 @@ impl Shader {
         }
     }
 
-    /// Numbers per vertex or representative: 3 per row, plus one because stores write 4, padded to a multiple of
+    /// Numbers per vertex or representative: 3 per row, plus one because a store writes 4, padded to a multiple of
     /// [`LANES`].
     fn stride(&self) -> usize {
         (3 * self.rows + 1).next_multiple_of(LANES)

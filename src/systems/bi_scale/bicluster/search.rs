@@ -13,11 +13,11 @@ use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::error::{InputError, ensure, input_error};
 
 /// Biclusters of a matrix, identical to the result of [`paper::biclusters`](crate::bi_scale::paper::biclusters).
-/// `seed` chooses the non-zeros at which biclusters start. `found` is called after each with the number of remaining
-/// non-zeros.
+/// `seed` chooses the non-zeros at which biclusters start. `found` is called after each bicluster with the number of
+/// remaining non-zeros.
 ///
-/// Besides the biclusters, the search takes 16 bytes per non-zero and about 80 per row and column. Fails with
-/// [`InputError`] for more than 2^32 non-zeros, or if 32 bits of units do not hold a residual.
+/// Besides the biclusters, the search needs 16 bytes per non-zero and about 80 bytes per row and column. Fails with
+/// [`InputError`] for more than 2^32 non-zeros, or if a residual does not fit into 32 bits.
 pub fn bicluster(matrix: &SparseMatrix, seed: u64, found: &mut dyn FnMut(u64)) -> Result<Biclustering, InputError> {
     let nonzeros = matrix.nonzeros() as u64;
     ensure!(u32::try_from(nonzeros).is_ok(), "expected at most {} non-zeros, found {nonzeros}", u32::MAX);
@@ -132,8 +132,8 @@ impl SearchSide {
     }
 
     /// Subtracts the bicluster's values from the entries `all` of a line inside; `places` are the crossing lines'
-    /// indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if 32 bits do
-    /// not hold a residual.
+    /// indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if a residual
+    /// does not fit into 32 bits.
     fn subtract(
         &mut self,
         line: u32,
@@ -207,7 +207,7 @@ impl Search {
         }
     }
 
-    /// Lines 2 to 21 of Algorithm 1; `None` if 32 bits do not hold a residual.
+    /// Lines 2 to 21 of Algorithm 1; `None` if a residual does not fit into 32 bits.
     fn run(&mut self, matrix: &SparseMatrix, found: &mut dyn FnMut(u64)) -> Option<Biclustering> {
         let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
         while self.left.total() > 0 {
@@ -265,7 +265,7 @@ impl Search {
     fn delete_row(&mut self, row: u32) {
         self.rows.delete(row);
         self.cross_columns(row, ColumnTally::remove);
-        // With one row less inside, the insertion of further columns may gain.
+        // With one row fewer inside, the insertion of further columns may gain.
         let [_, least] = self.least_keys();
         self.columns.queue_again(least);
     }
@@ -308,8 +308,8 @@ impl Search {
         }
     }
 
-    /// Lines 15 and 16: the finished bicluster, subtracted from the remaining matrix; `None` if 32 bits do
-    /// not hold a residual.
+    /// Lines 15 and 16 of Algorithm 1: the finished bicluster, subtracted from the remaining matrix; `None` if a
+    /// residual does not fit into 32 bits.
     fn end(&mut self) -> Option<Bicluster> {
         let bicluster = self.bicluster();
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {

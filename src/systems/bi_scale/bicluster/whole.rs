@@ -70,7 +70,7 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// Values are multiples of 2 to the power of minus this.
+    /// Number f of fraction bits: values are multiples of 2^-f.
     pub fn fraction_bits(&self) -> u32 {
         self.fraction_bits
     }
@@ -128,8 +128,8 @@ impl Biclustering {
         (begins, of_row)
     }
 
-    /// The sum of the biclusters: the original matrix. Fails with [`InputError`] if 32 bits do not hold a sum, as for
-    /// biclusters from other programs.
+    /// The sum of the biclusters: the original matrix. Fails with [`InputError`] if a sum does not fit into 32 bits, as
+    /// may happen for biclusters from other programs.
     pub fn sum(&self) -> Result<SparseMatrix, InputError> {
         let (begins, of_row) = self.by_row();
         let columns = self.matrix_size()[1];

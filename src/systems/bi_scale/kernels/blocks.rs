@@ -49,7 +49,7 @@ impl BlockGrid {
         [side, side, self.views * self.views]
     }
 
-    /// Column and row of the first texel of a direction's block, border included.
+    /// Column and row of the first texel of a direction's block, including its border.
     pub const fn origin(&self, light: usize) -> [usize; 2] {
         [self.pitch() * (light % self.lights), self.pitch() * (light / self.lights)]
     }

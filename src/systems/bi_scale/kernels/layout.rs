@@ -19,7 +19,7 @@ pub struct LocalLayout {
 const BESIDE: usize = 5;
 
 impl LocalLayout {
-    /// Number of directions per pass: each takes three of the numbers that remain besides u, v and the view.
+    /// Number of directions per pass: each uses three of the numbers that remain besides u, v and the view.
     pub const fn directions(self) -> usize {
         (4 * self.sets).saturating_sub(BESIDE) / 3
     }

@@ -50,7 +50,7 @@ struct Stage {
 pub struct GatherCounts {
     /// Passes for the bicluster buffer, and for the rows.
     pub passes: [usize; 2],
-    /// Places read in these passes, padding included.
+    /// Number of places read in these passes, including padding.
     pub places: [u64; 2],
     /// Bytes of the lists for the bicluster buffer, and for the rows.
     pub list_bytes: [u64; 2],

@@ -6,7 +6,7 @@
 
 use crate::card::{CardError, Texels};
 
-/// The number of places that stay distinct in single precision with one half added: 23 bits.
+/// The number of places that stay distinct in single precision when one half is added: 23 bits.
 const MOST_PLACES: usize = 1 << 23;
 
 /// Rejects more sums or columns than there are distinct places.

@@ -145,7 +145,7 @@ pub struct TextureSampling {
     pub view: LocalDirections,
     /// The M directions of light.
     pub light: LocalDirections,
-    /// n: a texel is the mean over n x n points; 1: its middle.
+    /// Number n: a texel is the mean over n x n points, or its middle if n is 1.
     pub samples: usize,
 }
 

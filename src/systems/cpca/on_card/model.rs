@@ -36,7 +36,7 @@ impl TransferSize {
         self.clusters * (self.vectors + 1)
     }
 
-    /// Constant registers per cluster in the programs, in which each vector takes whole registers.
+    /// Constant registers per cluster in the programs, in which each vector occupies whole registers.
     pub fn registers_per_cluster(&self) -> usize {
         self.registers(0).needed(self.vectors)
     }

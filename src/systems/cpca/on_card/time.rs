@@ -37,7 +37,7 @@ pub struct FrameCounts {
     pub run_per_triangle: f64,
 }
 
-/// Number of instructions of the program that draws positions only.
+/// Number of instructions of the program that draws only positions.
 const POSITION_SLOTS: u64 = 4;
 
 impl FrameCounts {

@@ -33,7 +33,7 @@ impl WeightFormat {
 }
 
 /// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. Decoding costs the
-/// card nothing, because the products include them: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
+/// card nothing, because the products include it: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
 #[derive(Clone, Debug)]
 pub struct CardWeights {
     format: WeightFormat,

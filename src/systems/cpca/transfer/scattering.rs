@@ -24,7 +24,7 @@ pub struct ScatteringOptions {
     /// Millimetres per unit of the mesh; above 0.
     pub mm_per_unit: f64,
     /// The solid angle, in steradians, below which a cluster of vertices counts as one point; a cluster's solid angle
-    /// is its area divided by its squared distance. 0 sums every vertex separately.
+    /// is its area divided by its squared distance. With 0, every vertex is summed separately.
     pub solid_angle: f64,
 }
 

@@ -27,10 +27,10 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// Computes the transfer of all vertices for light of an order. There must be one response per material, all in one
-    /// exit basis. `bounces` is the number of interreflections, not counting the reflection towards the eye; with 0,
-    /// only direct light with shadows is computed. The rays must have been traced from these vertices, with hits kept
-    /// if `bounces` is not 0.
+    /// Computes the transfer of all vertices for light of an order. There must be one response per material, all in the
+    /// same exit basis. `bounces` is the number of interreflections, not counting the reflection towards the eye; with
+    /// 0, only direct light with shadows is computed. The rays must have been traced from these vertices, with hits
+    /// kept if `bounces` is not 0.
     pub fn new(
         vertices: &Vertices,
         rays: &TracedRays,

@@ -53,8 +53,8 @@ impl CornerSets {
     }
 }
 
-/// Vertex of the smooth display: a position where corners of patches of one smooth surface meet. Several vertices share
-/// a position if surfaces of different materials, or both sides of a sharp edge, meet there.
+/// Vertex of the smooth display: a position where corners of patches of the same smooth surface meet. Several vertices
+/// share a position if surfaces of different materials, or both sides of a sharp edge, meet there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmoothVertex {
     /// Position.
@@ -86,9 +86,9 @@ fn mean(set: &[u32], radiosity: &[[f64; 3]]) -> [f64; 3] {
     set.iter().fold([0.0; 3], add).map(|sum| sum / set.len() as f64)
 }
 
-/// Computes the radiosity at each corner of each patch: the mean over the patches of one material that meet there
-/// without a sharp edge between them (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered
-/// patches are ignored. Constant radiosity stays constant. Panics if there is not one radiosity per patch.
+/// Computes the radiosity at each corner of each patch: the mean over the patches of the same material that meet there
+/// without a sharp edge (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches are
+/// ignored. Constant radiosity stays constant. Panics if there is not one radiosity per patch.
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity per patch");
     let CornerSets { sets, of } = CornerSets::new(patches);

@@ -1,8 +1,8 @@
 //! Patches with T-junctions on their sides, drawn as triangle fans.
 //!
-//! The card snaps corners to a grid of a sixteenth of a pixel. A side drawn as one line would leave a crack next to the
-//! neighbours' snapped corners on it. A patch with such a side is drawn as a fan around its centre, with a vertex at
-//! each corner on its sides.
+//! The card snaps corners to a grid of a sixteenth of a pixel. If a side were drawn as one line, cracks would open at
+//! the neighbours' snapped corners on it. A patch with such a side is drawn as a fan around its centre, with a vertex
+//! at each corner on its sides.
 
 use std::collections::{BTreeMap, BTreeSet};
 

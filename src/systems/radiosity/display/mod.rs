@@ -25,7 +25,7 @@ pub use corners::{SmoothVertex, at_corners};
 use fans::in_patch;
 use resample::Resampler;
 
-/// Patches of one kind (quadrilaterals, triangles, fans of quadrilaterals): their vertices, and the program that
+/// Patches of the same kind (quadrilaterals, triangles, fans of quadrilaterals): their vertices, and the program that
 /// interpolates.
 #[derive(Debug)]
 struct PatchShape {

@@ -76,7 +76,7 @@ fn upload(
     let mut values = [(); 2].map(|()| Texels::from_fn(size, |_, _| [0.0; 4]));
     for (texel, set) in sets.iter().enumerate() {
         let from = pass * PER_PASS;
-        // Patches with weight 0 are still read: unused numbers repeat the set's last one, so that no other value is
+        // Patches with weight 0 are still read: unused numbers repeat the set's last number, so that no other value is
         // read.
         let number = |k: usize| (f64::from(set[(from + k).min(set.len() - 1)]) + 0.5) as f32;
         let weight = |k: usize| if from + k < set.len() { (1.0 / (from + k + 1) as f64) as f32 } else { 0.0 };

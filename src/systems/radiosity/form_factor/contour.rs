@@ -2,7 +2,7 @@
 //!
 //! `A F = 1 / (2 pi) sum over sides a, b of (a . b) integral integral ln r`, with unit directions a and b of the sides.
 //!
-//! One of the two integrals has a closed form; the other takes eight Gauss points. For sides on one line, where the
+//! One of the two integrals has a closed form; the other uses eight Gauss points. For sides on the same line, where the
 //! logarithm has its pole, both integrals are in closed form. See docs/papers/radiosity.md for the error.
 
 use std::f64::consts::PI;
@@ -14,7 +14,7 @@ use glam::DVec3;
 
 /// Cosine between sides below which they contribute nothing.
 const ACROSS: f64 = 1e-14;
-/// Maximum distance at which sides count as on one line, relative to their length.
+/// Maximum distance at which sides count as on the same line, relative to their length.
 const ON_LINE: f64 = 1e-9;
 
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,7 @@ use crate::linalg::Matrix;
 use crate::radiosity::Patches;
 use crate::tracer::Caster;
 
-/// Exchanges without occlusion: area times form factor, which is symmetric. A pair's is in the row of its first patch.
+/// Exchanges without occlusion: area times form factor, which is symmetric. Each pair is in its first patch's row.
 fn exchanges(patches: &Patches) -> Result<Matrix, InputError> {
     let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
     let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();
@@ -52,7 +52,7 @@ impl FormFactors {
     }
 }
 
-/// Turns exchanges in the upper triangle into form factors: copies it to the lower one, and divides rows by areas.
+/// Turns exchanges in the upper triangle into form factors: mirrors them into the lower, and divides rows by areas.
 pub(super) fn divide(matrix: &mut Matrix, areas: &[f64]) {
     for i in 1..matrix.row_count() {
         for j in 0..i {

@@ -110,8 +110,8 @@ fn share(
     let (mut open, mut all) = (0.0, 0.0);
     for sample in samples {
         all += sample.weight;
-        // A hit does not occlude if it is the far end, or on the face at which the ray starts or ends: their planes
-        // cannot hide each other.
+        // A hit does not occlude if it is the far end, or on the face at which the ray starts or ends: a flat face
+        // cannot hide its own points.
         let passes = |hit: Hit| hit.t >= sample.arrives || faces.contains(&patches.face_of(hit.triangle));
         let hit = if sample.ray.is_some() { hits.next().flatten() } else { None };
         if hit.is_none_or(passes) {

@@ -52,7 +52,7 @@ impl Fit {
         Ok(Self { block: blocks[0].min(blocks[1]).max(1), limit })
     }
 
-    /// Checks the size of a system before its form factors are computed, which takes long.
+    /// Checks the size of a system before its form factors are computed, which takes a long time.
     pub fn require(self, profile: &Profile, packing: Packing, patches: usize) -> Result<(), CardError> {
         let size = packing.matrix_texels(patches);
         if size[0].max(size[1]) <= self.limit {

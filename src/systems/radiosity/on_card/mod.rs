@@ -41,12 +41,12 @@ pub struct CardSolver {
     fit: Fit,
     layout: SystemLayout,
     programs: Programs,
-    /// One system of three channels, or one per channel.
+    /// One system of three channels, or one system per channel.
     layers: Vec<Layer>,
 }
 
 impl CardSolver {
-    /// Creates a solver and uploads a system: one texture of three matrices, or three textures of one.
+    /// Creates a solver and uploads a system: one texture of three matrices, or three textures of one matrix each.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -59,9 +59,9 @@ impl CardSolver {
         Self::of(profile, executor, &systems, storage)
     }
 
-    /// Creates a solver and uploads systems that are already in the card's layout: one, or three luminance systems of
-    /// one size for the three channels. Fails as [`Self::new`] does, with [`CardError::Input`] for another number of
-    /// systems or for different sizes, and with [`CardError::Program`] for blocks that are too long for the device.
+    /// Creates a solver and uploads systems that are already in the card's layout: one system, or three luminance
+    /// systems of the same size. Fails as [`Self::new`] does, with [`CardError::Input`] for another number of systems
+    /// or for different sizes, and with [`CardError::Program`] for blocks that are too long for the device.
     pub fn of(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -162,8 +162,8 @@ impl CardSolver {
         self.layers.iter().zip(&layouts).try_for_each(|(layer, texels)| layer.load(machine, texels))
     }
 
-    /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card. Radiosities are
-    /// kept. Fails with [`CardError::Input`] if it has another number of patches.
+    /// Dynamic relighting: uploads the emittances of a system whose matrix is on the card. Radiosities are
+    /// kept. Fails with [`CardError::Input`] if the system has another number of patches.
     pub fn set_emittance(&mut self, system: &System) -> Result<(), CardError> {
         CardError::check_size(PATCHES, self.len(), system.factors().len())?;
         let texels = emittances(system, self.layout.packing, self.fit.limit)
@@ -172,8 +172,8 @@ impl CardSolver {
         self.layers.iter().zip(&texels).try_for_each(|(layer, texels)| layer.set_emittance(machine, texels))
     }
 
-    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one per channel with
-    /// four patches per texel. An iteration changes which textures these are.
+    /// The textures that hold the radiosities, one row of texels each: one texture of three channels, or one per
+    /// channel with four patches per texel. An iteration changes which textures these are.
     pub fn radiosity_textures(&self) -> Vec<TextureId> {
         self.layers.iter().map(|layer| layer.radiosity).collect()
     }

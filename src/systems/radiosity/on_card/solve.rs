@@ -21,11 +21,11 @@ pub struct Iteration<'a> {
 pub struct CardSolution {
     /// Red, green and blue of each patch.
     pub radiosity: Vec<[f32; 3]>,
-    /// Iterations after which the residual was computed (0 is the initial one), with its mean square in each channel.
+    /// Iterations after which the residual was computed (0: initially), with its mean square in each channel.
     pub history: Vec<(u32, [f64; 3])>,
     /// `true` if the tolerance was reached.
     pub converged: bool,
-    /// The cycle or fixed point in which the radiosities ended without reaching the tolerance; `None` if none was
+    /// The cycle or fixed point in which the radiosities ended without reaching the tolerance; `None` if no cycle was
     /// found.
     pub cycle: Option<Cycle>,
 }

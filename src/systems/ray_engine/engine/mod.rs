@@ -8,10 +8,10 @@
 //! **The result does not depend on where a ray is tested.** A ray is tested against all triangles of each GPU cell on
 //! its way, on the card or on the host, whose results equal the results of a card with fp32 pipelines; at equal t the
 //! triangle with the lowest index is taken. So order, sizes of caches, `R_min` and threads change counts and time,
-//! never a hit. There are two exceptions. On cards of other formats, card and host can disagree, so the caches matter,
-//! as on the cards of the time. And fp32 may report a hit on a triangle outside the cells along the ray, which the ray
-//! does not truly hit; then the result depends on whether the octree and its cells cause that test. This affects one
-//! answer in thousands of artificially hard scenes (docs/papers/ray_engine.md counts them).
+//! never a hit. There are two exceptions. On cards with other formats, card and host can disagree, so the caches
+//! matter, as on the cards of the time. And fp32 may report a hit on a triangle outside the cells along the ray, which
+//! the ray does not truly hit; then the result depends on whether the octree and its cells cause that test. This
+//! affects one answer in thousands of artificially hard scenes (docs/papers/ray_engine.md counts them).
 
 mod counts;
 mod flight;

@@ -43,9 +43,9 @@ pub struct EngineParameters {
     pub card: bool,
     /// Read-back mode.
     pub readback: Readback,
-    /// `true` to cull triangles that no ray of a pass can hit in the vertex program.
+    /// `true` to cull, in the vertex program, triangles that no ray of a pass can hit.
     pub cull: bool,
-    /// `true` to first test a bucket that leaves the tree against the octree's cells as one beam.
+    /// `true` to test each bucket that leaves the tree as one beam first, against the octree's cells.
     pub beams: bool,
     /// Seed of the random order in which the rays of a bundle enter the tree (section 5.3); `None` keeps their order.
     pub shuffle: Option<u64>,

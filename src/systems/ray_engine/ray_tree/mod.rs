@@ -30,7 +30,7 @@ impl Default for RayTreeParameters {
 pub struct RayTreeCounts {
     /// Number of rays inserted.
     pub inserted: u64,
-    /// Nodes passed by inserted rays, buckets included.
+    /// Nodes passed by inserted rays, including buckets.
     pub nodes_passed: u64,
     /// Number of buckets split in four.
     pub splits: u64,

@@ -1,11 +1,11 @@
 //! Photon mapping with final gather (Jensen, Global Illumination using Photon Maps, 1996).
 //!
 //! The lights fill two maps. The *global* map stores every photon hit on a diffuse or glossy surface; the *caustic* map
-//! only hits of photons that passed only mirrors and glass before. The radiance of a diffuse part is the sum of three
-//! terms that share no path: direct light (a shadow ray), caustics (the caustic map's density), and indirect light
-//! (gather rays, which end with the global map's density at the next diffuse or glossy surface, and see no emitters).
-//! Glossy lobes, mirrors and glass send further rays as in [`super::distributed`]; a glossy lobe also samples point
-//! lights by shadow rays and the caustic map, because no ray hits a point.
+//! stores only hits of photons that met only mirrors and glass before. The radiance of a diffuse part is the sum of
+//! three terms that share no path: direct light (a shadow ray), caustics (the caustic map's density), and indirect
+//! light (gather rays, which end with the global map's density at the next diffuse or glossy surface, and see no
+//! emitters). Glossy lobes, mirrors and glass send further rays as in [`super::distributed`]; a glossy lobe also
+//! samples point lights by shadow rays and the caustic map, because no ray hits a point.
 //!
 //! Densities are estimated over disks of finite size, so this renderer, unlike the others, is biased: it blurs within
 //! [`Photons::radius`], and darkens where a disk extends over an edge.

@@ -4,8 +4,8 @@
 //! the previous pass's result (sampler 1), and adds one product per link.
 //!
 //! - *Fixed*: `p[1 + n]` is the place of link n in its level. The factors of four links are in one texel. With three
-//!   channels they are in three texels: the first three links' factors in xyz of one texel each, the fourth link's in
-//!   the three w.
+//!   channels they are in three texels: the first three links' factors in xyz of one texel each, the fourth link's
+//!   factors in the three w.
 //! - *Adaptive*: a texel of link n has u, v, the factor, and the level in w; with three channels, z is unused and a
 //!   second texel has the factors. For a map with levels, w is 2^level / side, which is both components of a derivative
 //!   for `TXD`: the level of detail is then level + 1/2, and the sampler's bias subtracts 1/2. For a rectangle with all
@@ -24,7 +24,7 @@ use crate::card::{KernelError, checked, instructions};
 /// The kind of links, as far as it affects the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LinkLayout {
-    /// All links of a texel lead to one level; constants contain their places.
+    /// All links of a texel lead to the same level; constants contain their places.
     Fixed,
     /// Each link has its own place and level.
     Adaptive,

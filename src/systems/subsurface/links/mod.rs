@@ -31,7 +31,7 @@ pub struct Links {
     choice: LinkChoice,
     channels: usize,
     per_texel: usize,
-    /// Clusters of fixed links, one per link; of adaptive links, texel by texel, row by row, then link by link.
+    /// Clusters: for fixed links, one per link; for adaptive links, texel by texel, row by row, then link by link.
     clusters: Vec<PackedCluster>,
     /// Factors texel by texel, row by row, then link by link, then channel by channel.
     factors: Vec<f32>,

@@ -66,7 +66,7 @@ impl FaceMap {
         Window { s, t }
     }
 
-    /// The convex polygons under a window, on both sides of the diagonal; if the window is not bent, one has no
+    /// The convex polygons under a window, on both sides of the diagonal; if the window is not bent, one polygon has no
     /// corners.
     pub(super) fn outlines(&self, Window { s: [s0, s1], t: [t0, t1] }: Window) -> [Vec<DVec3>; 2] {
         let corners = [(s0, t0), (s1, t0), (s1, t1), (s0, t1)].map(|(s, t)| DVec3::new(s, t, 0.0));
@@ -74,7 +74,7 @@ impl FaceMap {
         [1.0, -1.0].map(|side| clip(&corners, |at| side * (at.x - at.y)).into_iter().map(on_face).collect())
     }
 
-    /// The offset between corresponding points of two equally large windows on one side of the diagonal.
+    /// The offset between corresponding points of two equally large windows on the same side of the diagonal.
     pub(super) fn step(&self, from: &Window, to: &Window) -> DVec3 {
         let [s, t] = [to.s[0] - from.s[0], to.t[0] - from.t[0]];
         let is_below = from.s[0] >= from.t[1];

@@ -64,8 +64,8 @@ impl Covariance {
 }
 
 impl Moments {
-    /// Moments of the union of four pieces, without its size, which is set to 0. Pieces have equal weights if none has
-    /// an area.
+    /// Moments of the union of four pieces, without its size, which is set to 0. Pieces have equal weights if no piece
+    /// has an area.
     pub(super) fn together(parts: &[Self; 4]) -> Self {
         let area: f64 = parts.iter().map(|part| part.area).sum();
         let weight = |part: &Self| if area > 0.0 { part.area / area } else { 0.25 };

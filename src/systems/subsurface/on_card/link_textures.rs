@@ -30,8 +30,8 @@ impl LinkTextures {
         Self { side: links.side(), level, rgb: links.channels() == 3, count: links.per_texel(), textures }
     }
 
-    /// Uses textures in the layout of [`EncodedLinks`], with `count` links per texel, to one level or (`None`) to a
-    /// level per link. Fails with [`CardError::Input`] for another number of textures or texels.
+    /// Uses textures in the layout of [`EncodedLinks`], with `count` links per texel; all lead to one level or, if
+    /// `None`, each to its own. Fails with [`CardError::Input`] for another number of textures or texels.
     pub fn from_textures(
         side: u32,
         level: Option<u32>,

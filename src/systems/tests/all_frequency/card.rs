@@ -141,7 +141,7 @@ fn colors_of_vertices_are_interpolated() {
     assert!(error < 2e-5, "one term: {error}");
 }
 
-/// A plane of another reflectance cuts the hills: each pixel shows the nearer one, in one pass and in one per channel.
+/// A plane with another reflectance cuts the hills: each pixel shows the nearer mesh, with one pass or three.
 #[test]
 fn meshes_hide_each_other() {
     let [hills, plane] =

@@ -162,7 +162,7 @@ fn device(name: &str) -> Profile {
 }
 
 /// Compressed transfer of hills: diffuse for light of 16 coefficients, or glossy with a number of functions for light
-/// of 4.
+/// of 4 coefficients.
 struct CompressedHills {
     vertices: Vertices,
     clustering: Clustering,

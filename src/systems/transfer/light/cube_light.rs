@@ -56,9 +56,9 @@ impl CubeLight {
         Self::sampled(|direction| picture.radiance(direction))
     }
 
-    /// Creates a light from small, rotated sources, counted from 0 in errors. Each adds its radiance times the covered
-    /// fraction of each fine texel. The fractions are computed on a grid fine enough for the source, and scaled so that
-    /// the source's flux, 2 pi (1 - cos radius) times its radiance, is exact.
+    /// Creates a light from small sources, after a rotation; errors count the sources from 0. Each adds its radiance
+    /// times the covered fraction of each fine texel. The fractions are computed on a grid fine enough for the source,
+    /// and scaled so that the source's flux, 2 pi (1 - cos radius) times its radiance, is exact.
     pub fn from_disks(sources: &[DiskSource], rotation: &DMat3) -> Result<Self, InputError> {
         Self::decimated(&fine_disks(sources, rotation)?)
     }

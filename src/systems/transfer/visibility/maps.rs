@@ -96,7 +96,7 @@ impl VisibilityMaps {
         self.sampling
     }
 
-    /// Reduces vertex indices by `first`, which converts the indices of the second of two joined meshes to its own.
+    /// Reduces vertex indices by `first`, which converts indices in two joined meshes to indices in the second.
     /// Panics if a vertex index is lower than `first`.
     #[must_use]
     pub fn counted_from(mut self, first: u32) -> Self {

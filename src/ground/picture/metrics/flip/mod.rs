@@ -1,8 +1,8 @@
-//! LDR-FLIP: the difference that an observer notices who flips between two pictures (Andersson, Nilsson,
+//! LDR-FLIP: the difference that an observer notices when flipping between two pictures (Andersson, Nilsson,
 //! Akenine-Möller, Oskarsson, Åström and Fairchild, 2020, "FLIP: a difference evaluator for alternating images").
 //!
 //! Colors are filtered by contrast sensitivity and compared by a distance for large differences; where edges or points
-//! appear or vanish, the difference is amplified. Tests compare it with values of the authors' own program.
+//! appear or vanish, the difference is amplified. Tests compare it with values from the authors' program.
 
 mod color;
 mod features;
@@ -52,7 +52,7 @@ pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<Fli
     }
     let ppd = if ppd > MIN_PPD { ppd.min(MAX_PPD) } else { MIN_PPD };
     let [(colors, features), (other_colors, other_features)] = [left, right].map(|picture| perceived(picture, ppd));
-    // Green and blue are farthest apart of all colors of the screen.
+    // Of all colors of the screen, green and blue are farthest apart.
     let largest = pow(hyab(to_hunt_lab([0.0, 1.0, 0.0]), to_hunt_lab([0.0, 0.0, 1.0])), COLOR_EXPONENT);
     let knee = KNEE * largest;
     let error = |at: usize| {
