@@ -25,11 +25,23 @@ impl Tally {
 /// Unit of the counts, singular and plural.
 pub(super) type CountUnit = [&'static str; 2];
 
-/// Adds the finding, verdict, seams and tally to the findings.
+/// Sentence about the card in the headline.
+const RADEON: &str = "The Radeon 8500 (R200) is ATI's card of 2001, the first with ps_1_4; its pixel arithmetic is \
+                      16-bit fixed point.";
+/// Sentence about leaks.
+const LEAK: &str = "A leak is a ray that should hit the surface but misses it: it can slip between two triangles that \
+                    share an edge, so the background shows.";
+
+/// Adds the conclusion and the tally to the findings.
 pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUnit) {
-    let sentences = [most_leaks(rows, unit), verdict(rows, unit), seams(rows), cured(rows)];
-    let limited: Vec<(&str, FormatLimits)> = rows.iter().map(|row| (label(row), row.limits)).collect();
-    sentences.into_iter().flatten().chain(limits(&limited)).for_each(|sentence| found.conclusion(sentence));
+    let sentences = [verdict(rows, unit), seams(rows), cured(rows)].into_iter().flatten();
+    let limits: Vec<(&str, FormatLimits)> = rows.iter().map(|row| (label(row), row.limits)).collect();
+    let lost = [
+        limited(&limits, FormatLimits::loses_normals, FormatLimits::lost_normals),
+        limited(&limits, FormatLimits::is_coarse, FormatLimits::coarse_distances),
+    ];
+    let all = most_leaks(rows, unit).into_iter().chain(sentences).chain(lost.into_iter().flatten());
+    all.for_each(|sentence| found.conclusion(sentence));
     let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
     let right = [format!("row right in every {}", unit[0]), format!("rows right in every {}", unit[0])];
     found.tally(rows_with(|t| t.wrong() == 0), right.each_ref().map(String::as_str), Tone::Good);
@@ -38,16 +50,15 @@ pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUni
     found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
 }
 
-/// Warnings about formats with too few bits, each once, with the rows that they apply to.
-fn limits(rows: &[(&str, FormatLimits)]) -> Vec<String> {
-    let mut warnings: Vec<(String, Vec<&str>)> = Vec::new();
-    for (name, warning) in rows.iter().filter_map(|(name, limits)| Some((*name, limits.warning()?))) {
-        match warnings.iter_mut().find(|(known, _)| *known == warning) {
-            Some((_, rows)) => rows.push(name),
-            None => warnings.push((warning, vec![name])),
-        }
-    }
-    warnings.into_iter().map(|(warning, rows)| format!("{}: {warning}.", names(&rows))).collect()
+/// Sentence about the rows whose format loses something; `None` if no row does.
+fn limited(
+    rows: &[(&str, FormatLimits)],
+    is_limited: fn(&FormatLimits) -> bool,
+    clause: fn(&[FormatLimits]) -> String,
+) -> Option<String> {
+    let (labels, limits): (Vec<&str>, Vec<FormatLimits>) =
+        rows.iter().copied().filter(|(_, limits)| is_limited(limits)).unzip();
+    (!labels.is_empty()).then(|| format!("In {}, {}.", names(&labels), clause(&limits)))
 }
 
 fn names(rows: &[&str]) -> String {
@@ -75,11 +86,13 @@ fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     })
 }
 
-/// The finding: the fraction of the surface that the leakiest row loses. If they were traced, also the fractions that
-/// its card loses when it rounds to nearest, and when it evaluates each edge once. `None` if no row leaks.
-fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
+/// The headline: the fraction of the surface that the leakiest row loses; if they were traced, also the fractions that
+/// its card loses when it rounds to nearest, and when it evaluates each edge once. Then what a newcomer needs to read
+/// it: the card and a leak. Empty if no row leaks.
+fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Vec<String> {
     // The first one on a tie.
-    let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
+    let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0);
+    let Some(worst) = worst else { return Vec::new() };
     let Tally { leaks, surface, .. } = worst.tally;
     let loses = |row: &TeapotRow| percent(row.tally.leak_share());
     let card = &worst.configuration.profile.name;
@@ -91,14 +104,16 @@ fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     let relief = relief.into_iter().filter(|_| as_is).filter_map(|(edges, nearest, words)| {
         rows.iter().find(|row| is_row(row, card, edges, nearest)).map(|row| format!("; {words} {}", loses(row)))
     });
-    Some(format!(
+    let headline = format!(
         "{} loses {} of the surface's {more}: {} of {} leak{}.",
         arithmetic(worst),
         loses(worst),
         count(leaks),
         counted(surface, one, more),
         relief.collect::<String>(),
-    ))
+    );
+    let card = name(worst).starts_with("ATI Radeon 8500").then_some(RADEON);
+    std::iter::once(headline).chain(card.into_iter().chain([LEAK]).map(str::to_owned)).collect()
 }
 
 /// Returns `true` for the row with this card and edge rule, rounded to nearest if `nearest`, otherwise as the card
