@@ -58,7 +58,7 @@ impl Binder<'_> {
                     self.place.wrong(
                         model.span(),
                         error.to_string(),
-                        "name a pixel shader version, `ps_1_4` for example",
+                        "give a pixel shader version, `ps_1_4` for example",
                     )
                 })?;
                 if version.stage() != Stage::Pixel {

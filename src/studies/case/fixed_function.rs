@@ -83,7 +83,8 @@ impl Binder<'_> {
     ) -> Result<Option<Box<FixedFunctionState>>, CaseError> {
         let Some(table) = table else { return Ok(None) };
         if !program.parameters.iter().any(|p| matches!(p.source, ParameterSource::State(_))) {
-            let message = "[state], but the pixel program reads no `state.*` and has no fog option".to_owned();
+            let message =
+                "the case has [state], but the pixel program reads no `state.*` and has no fog option".to_owned();
             let help = "remove [state], or use a program that starts with `!!ARBfp1.0` and reads `state.*`";
             return Err(self.place.wrong(table.span(), message, help));
         }

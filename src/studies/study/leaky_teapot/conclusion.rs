@@ -81,8 +81,8 @@ fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
             format!("No row is right in every {one}; {} is wrong in the fewest: {wrong}.", label(best))
         }
         (_, 0) => format!("Every row is right in every {one}."),
-        (1, others) => format!("Of {} rows only {names} is right in every {one}.", count(others as u64 + 1)),
-        (some, others) => format!("Of {} rows {names} are right in every {one}.", count((some + others) as u64)),
+        (1, others) => format!("Of {} rows, only {names} is right in every {one}.", count(others as u64 + 1)),
+        (some, others) => format!("Of {} rows, {names} are right in every {one}.", count((some + others) as u64)),
     })
 }
 
@@ -98,8 +98,8 @@ fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Vec<String> {
     let card = &worst.configuration.profile.name;
     let as_is = is_row(worst, card, EdgeRule::Paper, false);
     let relief = [
-        (EdgeRule::Paper, true, "rounded to nearest it loses"),
-        (EdgeRule::SharedEdges, false, "with each edge evaluated once"),
+        (EdgeRule::Paper, true, "rounded to nearest, it loses"),
+        (EdgeRule::SharedEdges, false, "with each edge evaluated once, it loses"),
     ];
     let relief = relief.into_iter().filter(|_| as_is).filter_map(|(edges, nearest, words)| {
         rows.iter().find(|row| is_row(row, card, edges, nearest)).map(|row| format!("; {words} {}", loses(row)))
@@ -154,7 +154,7 @@ fn arithmetic(row: &TeapotRow) -> String {
     };
     let rounded = match rounding {
         Rounding::Down => ", rounded down,",
-        Rounding::TowardZero => ", cut,",
+        Rounding::TowardZero => ", rounded toward zero,",
         _ => "",
     };
     format!("The {bits}-bit {kind} arithmetic of the {name}{rounded}")
@@ -172,7 +172,7 @@ fn cured(rows: &[TeapotRow]) -> Option<String> {
     let [edges, vertices] = [most(1)?, most(2)?];
     (edges.rays > 0).then(|| {
         format!(
-            "With shared edges {} rays aimed at edges inside the surface leak, and {} aimed at vertices.",
+            "With shared edges, {} rays aimed at edges inside the surface leak, and {} rays aimed at vertices.",
             said(edges),
             said(vertices)
         )
@@ -186,16 +186,16 @@ fn seams(rows: &[TeapotRow]) -> Option<String> {
     let leaking = rows.iter().filter(|row| row.edges.leaks > 0).count();
     let least = shares.clone().min_by(f64::total_cmp)?;
     let most = shares.max_by(f64::total_cmp)?;
-    let share = if leaking == 0 {
-        "none leaks".to_owned()
+    let (share, place) = if leaking == 0 {
+        ("none".to_owned(), String::new())
     } else if leaking < rows.len() {
-        format!("up to {} leak, in {leaking} of {} rows", percent(most), rows.len())
+        (format!("up to {}", percent(most)), format!(", in {leaking} of {} rows", rows.len()))
     } else if least == most {
-        format!("{} leak", percent(most))
+        (percent(most), String::new())
     } else {
-        format!("some leak in every row: {} to {}", percent(least), percent(most))
+        (format!("{} to {}", percent(least), percent(most)), ", depending on the row".to_owned())
     };
-    Some(format!("With the paper's program, of the rays aimed at shared edges {share}."))
+    Some(format!("With the paper's program, {share} of the rays aimed at shared edges leak{place}."))
 }
 
 fn label(row: &TeapotRow) -> &str {

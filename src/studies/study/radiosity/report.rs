@@ -89,7 +89,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: &RadiosityOutcome) -> R
 }
 
 const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures; the \
-    bar below each picture shows it. docs/studies/radiosity.md explains why half precision darkens a room.";
+    bar below each picture shows the scale. docs/studies/radiosity.md explains why half precision darkens a room.";
 
 const ENDS: &str = "An iteration in finite precision that never meets its tolerance repeats an earlier state, and \
     cycles from there on. States are compared bit for bit; the period is the smallest.";

@@ -159,7 +159,7 @@ impl SubsurfaceOptions {
     /// Checks the options that do not depend on the medium. Fails if one is out of its range.
     pub fn check(&self) -> Result<(), StudyError> {
         if self.all_pairs == Some(true) && self.side > MAX_ALL_PAIRS_SIDE {
-            let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
+            let help = format!("remove `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
             return Err(StudyError::usage(format!("all pairs of {0} x {0} texels would take hours", self.side), help));
         }
         Ok(())

@@ -145,8 +145,9 @@ impl Study for Parameters {
     }
 }
 
-const ROOM: &str = "Matrix radiosity lights the room, clustered principal components the bunny, subsurface scattering \
-    the statue; each is drawn by its card.";
+const ROOM: &str = "Matrix radiosity lights the room, clustered principal components light the bunny, and subsurface \
+    scattering lights the statue. A Radeon 9700 draws the bunny; a GeForce FX 5900 Ultra draws the room and the \
+    statue.";
 
 const ABOUT: [&str; 4] = [
     "1. The Ray Engine on a GeForce FX 5900 Ultra casts the rays between the room's patches, and the card solves for radiosity. \
