@@ -63,7 +63,7 @@ impl KeptResults {
         Self { folder, work, clock, taken: Cell::default(), start: clock(), before: Cell::default() }
     }
 
-    /// Rejects a folder with results of other work, which would be lost, and a path that is not a folder.
+    /// Rejects a path that is not a folder, and a folder with results of other work, because these would be lost.
     pub fn require_no_other_work(&self) -> Result<(), InputError> {
         let unreadable = |source| unreadable(&self.folder, source);
         let files = match fs::read_dir(&self.folder) {

@@ -132,10 +132,10 @@ fn programs() -> Markup {
         section aria-labelledby="programs" {
             h2 #programs { "Programs, instruction by instruction" }
             p {
-                "Pixel programs of the published systems at one pixel. Every step that the emulator made is stored in \
-                 the page; your GPU makes it again in whole numbers, and each bit is compared. The same program also \
-                 runs, from the same inputs, in your GPU's own floats. Choose a pixel by mouse or arrow keys; on the \
-                 listing, arrow keys step."
+                "These are pixel programs of the published systems, at one pixel. Every step that the emulator made is \
+                 stored in the page; your GPU makes it again in whole numbers, and each bit is compared. The same \
+                 program also runs, from the same inputs, in your GPU's own floats. Choose a pixel by mouse or arrow \
+                 keys; on the listing, arrow keys step."
             }
             div.stand {
                 div.chooser {

@@ -40,7 +40,7 @@ pub(super) struct ValueErrors {
     /// Per pixel, `true` if a channel is wrong.
     wrong: Vec<bool>,
     /// Indices of the target and of the value with the largest error, the first one on a tie, and that error: in codes
-    /// if the channel has any, otherwise relative.
+    /// if the channel has codes, otherwise relative.
     pub(super) worst: Option<([usize; 2], f64)>,
 }
 

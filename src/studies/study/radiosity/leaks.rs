@@ -19,7 +19,7 @@ pub(super) struct LeakRow {
     pub(super) error: SolutionError,
 }
 
-/// One row per Ray Engine caster; `first` holds the first caster's form factors. Empty if that is the host.
+/// One row per Ray Engine caster; `first` holds the first caster's form factors. Empty if the first caster is the host.
 pub(super) fn rows(
     parameters: &Parameters,
     patches: &Patches,

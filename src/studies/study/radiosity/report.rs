@@ -44,8 +44,9 @@ pub(super) fn findings(parameters: &Parameters, outcome: &RadiosityOutcome) -> R
     }
     found.pictures(lead);
     found.paragraph(format!(
-        "{}, solved as by the fragment programs of Carr, Hall and Hart (2003, section 3), and by solvers of the host. \
-         The emulated {} draws pictures from its radiosity texture, times {}, with the sRGB curve.",
+        "The radiosities of {} are computed as by the fragment programs of Carr, Hall and Hart (2003, section 3), and \
+         by solvers of the host. The emulated {} draws pictures from its radiosity texture, multiplied by {}, with the \
+         sRGB curve.",
         counted(outcome.patches.list().len() as u64, "patch", "patches"),
         parameters.profile.title,
         Cell::ratio(outcome.exposure).text(),

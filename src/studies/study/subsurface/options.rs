@@ -142,17 +142,17 @@ pub struct SubsurfaceOptions {
 /// Values of `--choice`: layouts of links.
 fn choices() -> OneOf<LinkLayout> {
     let fixed = ("fixed", "All clusters of one level: 1, 4, 16, 64, ... links", LinkLayout::Fixed);
-    let help = "Per texel, the cluster with the highest factor gives way to its four children";
+    let help = "Per texel, the cluster with the highest factor is repeatedly replaced by its four children";
     one_of([fixed, ("adaptive", help, LinkLayout::Adaptive)])
 }
 
 /// Values of `--channels`: `true` for a factor per channel, `false` for one factor.
 fn rgb() -> OneOf<bool> {
-    one_of([("scalar", "One, that of green", false), ("rgb", "Red, green and blue", true)])
+    one_of([("scalar", "One factor, that of green", false), ("rgb", "Red, green and blue", true)])
 }
 
 fn yes_or_no() -> OneOf<bool> {
-    one_of([("yes", "Do it", true), ("no", "Do not", false)])
+    one_of([("yes", "Gather over all pairs", true), ("no", "Leave them out", false)])
 }
 
 impl SubsurfaceOptions {

@@ -25,8 +25,8 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
         found.pictures(pictures::lead(row, exposure)?);
     }
     found.paragraph(format!(
-        "{}, {}, of {}, by the three passes of Carr, Hall and Hart (2003, section 4) on the emulated {}. Pictures are \
-         radiance times {}, with the sRGB curve.",
+        "The model is {}, {}, made of {}. The three passes of Carr, Hall and Hart (2003, section 4) run on the \
+         emulated {}. Pictures are radiance multiplied by {}, with the sRGB curve.",
         parameters.model,
         counted(parameters.mesh.len() as u64, "face", "faces"),
         parameters.material.name,

@@ -39,7 +39,7 @@ const PATCHES: usize = 800;
 /// Number of faces of the room and of the bodies in it.
 const LEAST_PATCHES: usize = 200;
 /// The card that draws the bunny; the other one traces rays, solves radiosity and draws marble. Rays start so near to a
-/// surface that only single precision sees them leave it.
+/// surface that they leave it only in single precision.
 const RADEON: &str = "r300";
 const GEFORCE: &str = "nv35";
 

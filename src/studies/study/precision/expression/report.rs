@@ -104,7 +104,7 @@ fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], stu
     found.table(FoundTable::from(table).csv("expressions").field("expressions"));
 }
 
-/// An error; without inputs there is none.
+/// The cell of an error; empty if there were no inputs.
 fn error_cell(error: f64) -> Cell {
     if error.is_nan() { Cell::Empty } else { Cell::error(error) }
 }

@@ -119,7 +119,7 @@ impl BiScaleOnCard {
         self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
 
-    /// Rejects biclusters of other vertices, directions or light.
+    /// Rejects biclusters that do not match the vertices, directions or light.
     fn check(&self) -> Result<(), StudyError> {
         let [rows, columns] = self.biclusters.matrix_size();
         let expected = self.vertices.len() * self.directions();
