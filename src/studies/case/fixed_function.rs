@@ -75,7 +75,7 @@ struct FogTable {
 }
 
 impl Binder<'_> {
-    /// Binds the state of a case; `None`, which is OpenGL's default state, if the case has none.
+    /// Binds the state of a case; `None`, which is OpenGL's default state, if the case has no state.
     pub(super) fn fixed_function(
         &self,
         table: Option<&Spanned<StateTable>>,

@@ -104,7 +104,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Default attributes of all vertices, then the attributes of this one.
+    /// Default attributes of all vertices, then the attributes of this vertex.
     fn all(&self, place: &CaseVertex<'a>) -> impl Iterator<Item = (&'a String, &'a Spanned<Vec<Number>>)> {
         let own = if let CaseVertex::Vertex(written) = place { Some(written.get_ref()) } else { None };
         self.geometry.get_ref().attributes.iter().chain(own.into_iter().flatten())

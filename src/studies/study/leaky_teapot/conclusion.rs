@@ -160,7 +160,7 @@ fn arithmetic(row: &TeapotRow) -> String {
     format!("The {bits}-bit {kind} arithmetic of the {name}{rounded}")
 }
 
-/// Sentence about the rows with shared edges; `None` if there are none, or no rays were aimed at the inside of the
+/// Sentence about the rows with shared edges; `None` without such rows, or if no rays were aimed at the inside of the
 /// surface.
 fn cured(rows: &[TeapotRow]) -> Option<String> {
     let shared = || rows.iter().filter(|row| row.edge_rule == EdgeRule::SharedEdges);
@@ -179,7 +179,7 @@ fn cured(rows: &[TeapotRow]) -> Option<String> {
     })
 }
 
-/// Sentence about the rays aimed at edges, with the paper's program; `None` if there were none.
+/// Sentence about the rays aimed at edges, with the paper's program; `None` without such rays.
 fn seams(rows: &[TeapotRow]) -> Option<String> {
     let rows: Vec<&TeapotRow> = rows.iter().filter(|row| row.edge_rule == EdgeRule::Paper).collect();
     let shares = rows.iter().filter(|row| row.edges.surface > 0).map(|row| row.edges.leak_share());

@@ -152,7 +152,7 @@ fn programs() -> Markup {
                         button #back type="button" disabled { "Back" }
                         button #forward type="button" disabled { "Forward" }
                         button #last type="button" disabled { "Last" }
-                        button #parting type="button" disabled { "Where floats part" }
+                        button #parting type="button" disabled { "Where the floats first differ" }
                         output #step-of {}
                     }
                     ol #source aria-label="Source" {}

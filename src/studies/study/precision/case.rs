@@ -28,7 +28,7 @@ pub struct CaseSubject {
     executor: Executor,
     measures: Vec<PrecisionMeasure>,
     exact: Vec<DrawnTarget>,
-    /// Another case with the same pixel program, which tests the mixed formats that were searched on this one.
+    /// Another case with the same pixel program, which tests the mixed formats that were searched on this case.
     held_back: Option<Box<CaseSubject>>,
 }
 

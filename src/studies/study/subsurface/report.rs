@@ -79,7 +79,7 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
     }
     let numbers = || lines.iter().flat_map(|line| &line.points).map(|point| point.0);
     let (least, most) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max));
-    let labels = ["Error of B against all pairs", "links per texel", "root mean square error, %"];
+    let labels = ["Error of B against the sum over all pairs", "links per texel", "root mean square error, %"];
     let scale = Scale::fitting(numbers());
     (most > least)
         .then(|| NamedChart::logarithmic("error", labels, (scale, lines), "The error of links and card together."))
