@@ -16,7 +16,7 @@ use crate::report::sha256;
 /// Bytes of the digest at the end of a result's file.
 const DIGEST: usize = 32;
 
-/// The work that results belong to, line by line: the program, the command, and every input with its digest.
+/// The work that a result belongs to, as lines of text: the program, the command, and every input with its digest.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KeptWork(Vec<String>);
 
@@ -63,7 +63,7 @@ impl KeptResults {
         Self { folder, work, clock, taken: Cell::default(), start: clock(), before: Cell::default() }
     }
 
-    /// Rejects a folder with results of other work, which would be lost, and a path that is not a folder.
+    /// Rejects a path that is not a folder, and a folder with results of other work, because these would be lost.
     pub fn require_no_other_work(&self) -> Result<(), InputError> {
         let unreadable = |source| unreadable(&self.folder, source);
         let files = match fs::read_dir(&self.folder) {
@@ -78,8 +78,8 @@ impl KeptResults {
                 && let Some((expected, found)) = self.work.0.iter().zip(&work.0).find(|(own, other)| own != other)
             {
                 let other = input_error!(
-                    "crossbar::kept::other" => "expected a result of\n{expected}\nfound one of\n{found}";
-                    help "go on with the command, the inputs and the program of the first run, or name another folder"
+                    "crossbar::kept::other" => "expected a result of\n{expected}\nfound a result of\n{found}";
+                    help "continue with the command, inputs and program of the first run, or choose another folder"
                 );
                 return Err(other.at(path.as_path()));
             }

@@ -140,7 +140,7 @@ impl ShaderText {
             input_error!(
                 "crossbar::shader::text" =>
                 "expected a shader in ASCII or UTF-8, found byte {byte:#04x} at offset {offset} of `{name}`";
-                help "name a file with shader assembly, not a compiled shader"
+                help "give a file with shader assembly, not a compiled shader"
             )
         })?;
         Ok(Self::new(name, text))

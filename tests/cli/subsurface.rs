@@ -91,7 +91,7 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     };
     let body: String = fixed.iter().zip(&adaptive).map(line).collect();
     let head = "| degrees | B | fixed: mean | rms | adaptive: mean | rms |\n|---|---|---|---|---|---|\n";
-    let begin = "With 64 links per texel, by the angle between normals and the light, ";
+    let begin = "With 64 links per texel, by the angle between normal and light, ";
     let spoken = words(&ran.stdout);
     let sentence = spoken.split(begin).nth(1).and_then(|rest| rest.split(". ").next()).expect("the sentence");
     let expected = format!("\n\n{head}{body}\n{}\n\n", wrapped(&format!("{begin}{sentence}.")));

@@ -64,7 +64,10 @@ impl ComparedSides<'_> {
             TraceStage::Mask { index, left, right } => {
                 let [left, right] = [left, right].map(|mask| format!("`{}`", letters(*mask)));
                 let sides = sides(&left, &right);
-                (format!("instruction {index} writes other components, by its predicate: {sides}"), Some(*index))
+                (
+                    format!("instruction {index} writes different components, because of its predicate: {sides}"),
+                    Some(*index),
+                )
             }
             TraceStage::Flow { left, right } => {
                 let side = |next: &Option<usize>| next.map_or("the end".to_owned(), |i| format!("instruction {i}"));

@@ -58,7 +58,7 @@ impl Binder<'_> {
                     self.place.wrong(
                         model.span(),
                         error.to_string(),
-                        "name a pixel shader version, `ps_1_4` for example",
+                        "give a pixel shader version, `ps_1_4` for example",
                     )
                 })?;
                 if version.stage() != Stage::Pixel {
@@ -97,7 +97,8 @@ impl Binder<'_> {
 
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Returns a device of [`Profile::named`], or of a device file if the name ends in `.toml`; fails if there is none.
+/// Returns a device of [`Profile::named`], or of a device file if the name ends in `.toml`; fails if there is no such
+/// device.
 pub fn device_named(name: &str) -> Result<Profile, DeviceError> {
     if is_file(name) { read(Path::new(name), name) } else { Profile::named(name) }
 }

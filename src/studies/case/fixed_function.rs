@@ -75,7 +75,7 @@ struct FogTable {
 }
 
 impl Binder<'_> {
-    /// Binds the state of a case; `None`, which is OpenGL's default state, if the case has none.
+    /// Binds the state of a case; `None`, which is OpenGL's default state, if the case has no state.
     pub(super) fn fixed_function(
         &self,
         table: Option<&Spanned<StateTable>>,
@@ -83,7 +83,8 @@ impl Binder<'_> {
     ) -> Result<Option<Box<FixedFunctionState>>, CaseError> {
         let Some(table) = table else { return Ok(None) };
         if !program.parameters.iter().any(|p| matches!(p.source, ParameterSource::State(_))) {
-            let message = "[state], but the pixel program reads no `state.*` and has no fog option".to_owned();
+            let message =
+                "the case has [state], but the pixel program reads no `state.*` and has no fog option".to_owned();
             let help = "remove [state], or use a program that starts with `!!ARBfp1.0` and reads `state.*`";
             return Err(self.place.wrong(table.span(), message, help));
         }

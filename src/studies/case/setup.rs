@@ -149,7 +149,7 @@ fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) 
             Some(index) => format!("a format for instruction {index} of program {digest:016x}"),
             None => format!("formats for instructions of program {digest:016x}"),
         },
-        reason: if index.is_some() { "takes none" } else { "the case does not run" },
+        reason: if index.is_some() { "cannot have a format" } else { "the case does not run" },
         help: match index {
             Some(_) => "only instructions that write numbers to a register can have a format".to_owned(),
             None => format!(
@@ -162,7 +162,7 @@ fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) 
         device: profile.name.clone(),
         formats: format!("a format for {}", storage.name()),
         reason: "the pixel program does not use",
-        help: "leave it out of the device file, or run another program".to_owned(),
+        help: "remove the format from the device file, or run another program".to_owned(),
     };
     let instructions = profile.instruction_formats().unused(&programs).into_iter().map(of_unused);
     instructions.chain(profile.rules.storage.unused(pixel).into_iter().map(of_storage)).collect()
@@ -282,7 +282,7 @@ impl Binder<'_> {
                 return Err(self.place.wrong(source.span(), format!("[{table}] has both `file` and `source`"), help));
             }
             (None, None) => {
-                let help = "name a `file`, or write the program as `source`";
+                let help = "give a `file`, or write the program as `source`";
                 return Err(self.place.wrong(shader.span(), format!("[{table}] has no program"), help));
             }
         };

@@ -179,7 +179,7 @@ fn from_vertices(sides: &[DrawnSide<'_>; 2], difference: TraceDifference) -> Res
     })
 }
 
-/// Compares the surfaces of both sides. Their shapes are equal, since both sides draw one case.
+/// Compares the surfaces of both sides. Their shapes are equal, since both sides draw the same case.
 fn surfaces(left: &Loaded<'_>, right: &Loaded<'_>) -> Result<Vec<SurfaceDifference>, CaseError> {
     let (a, b) = (left.targets()?, right.targets()?);
     let targets = a.iter().zip(b).enumerate();

@@ -22,7 +22,9 @@ pub(super) fn bump(
                 let message = format!("expected a stage from 0 to {}, found {}", BUMP_STAGES - 1, stage.get_ref());
                 return wrong(message, "the stage is the number of the register that texbem, texbeml or bem writes");
             }
-            Some(Some(_)) => return wrong(format!("stage {} is taken", stage.get_ref()), "write one [[bump]] a stage"),
+            Some(Some(_)) => {
+                return wrong(format!("stage {} is taken", stage.get_ref()), "write one [[bump]] per stage");
+            }
             Some(free) => {
                 let single = |number: Option<Number>| number.map_or(0, Number::single);
                 *free = Some(BumpStage {
@@ -45,8 +47,8 @@ pub(super) fn project(
     projections: &mut [Projection; BUMP_STAGES],
 ) -> Result<(), CaseError> {
     if !pixel.version.is_ps_1_1_to_1_3() {
-        let message = format!("`projected` is for ps_1_1 to 1_3, the program is {}", pixel.version);
-        let help = "divide in the program: ps_1_4 has _dz and _dw, ps_2_0 texldp";
+        let message = format!("`projected` is for ps_1_1 to 1_3, but the program is {}", pixel.version);
+        let help = "divide in the program: ps_1_4 has _dz and _dw, ps_2_0 has texldp";
         return Err(binder.place.wrong(projected.span(), message, help));
     }
     let Some(stage) = projections.get_mut(slot as usize) else {

@@ -150,18 +150,22 @@ pub(super) fn probes(
             return Err(binder.place.wrong(span, message, "targets count from 0"));
         }
         if let (Some(_), Some(target)) = (written.depth, &written.target) {
-            let help = "leave `target` out: there is one depth buffer";
+            let help = "remove `target`: there is only one depth buffer";
             return Err(binder.place.wrong(target.span(), "both `target` and `depth`", help));
         }
         if let (Some(_), Some(tolerance)) = (&written.raw, &written.tolerance) {
-            let help = "`raw` compares to the bit: leave `tolerance` out, or expect numbers";
+            let help = "`raw` codes are compared exactly: remove `tolerance`, or write `expected` instead of `raw`";
             return Err(binder.place.wrong(tolerance.span(), "both `tolerance` and `raw`", help));
         }
         let expected = expected(binder, probe, has_depth)?;
         let tolerance = written.tolerance.as_ref().map_or(0.0, |tolerance| tolerance.get_ref().double());
         if tolerance.is_nan() || tolerance < 0.0 {
             let span = written.tolerance.as_ref().map_or(probe.span(), Spanned::span);
-            return Err(binder.place.wrong(span, "expected a tolerance of 0 or more", "leave it out for 0"));
+            return Err(binder.place.wrong(
+                span,
+                "expected a tolerance of 0 or more",
+                "remove `tolerance` for a tolerance of 0",
+            ));
         }
         Ok(Probe { pixel, target, expected, tolerance })
     };
@@ -172,7 +176,7 @@ fn expected(binder: &Binder<'_>, probe: &Spanned<schema::Probe>, has_depth: bool
     let wrong = |message: &str, help: &str| Err(binder.place.wrong(probe.span(), message, help));
     let four = |found: usize, span| {
         let message = format!("expected 1 to 4 channels, found {found}");
-        Err(binder.place.wrong(span, message, "red, green, blue, alpha; leave out from the end"))
+        Err(binder.place.wrong(span, message, "write red, green, blue and alpha, or the first of them"))
     };
     let written = probe.get_ref();
     match (&written.expected, &written.raw, written.depth) {

@@ -44,12 +44,13 @@ pub(super) fn bind(binder: &Binder<'_>, texture: &Spanned<schema::Texture>) -> R
         (Some(file), None) => from_file(binder, written, format, file)?,
         (None, Some(texels)) => from_texels(binder, texture, format, texels)?,
         (Some(_), Some(_)) => return wrong("the texture has both `file` and `texels`", "keep one of the two"),
-        (None, None) => return wrong("the texture has no texels", "name a PNG `file`, or list `texels`"),
+        (None, None) => return wrong("the texture has no texels", "give a PNG `file`, or list `texels`"),
     };
     let generate_mipmaps = matches!(mipmaps(written), Some(Mipmaps::Automatic));
     let image = if generate_mipmaps {
         let levels = Image::most_levels(image.kind(), [image.width(), image.height(), image.slices()]);
-        let too_large = |error: TextureError| binder.place.wrong(texture.span(), error.to_string(), "make it smaller");
+        let too_large =
+            |error: TextureError| binder.place.wrong(texture.span(), error.to_string(), "make the texture smaller");
         image.with_levels(levels).map_err(too_large)?
     } else {
         image
@@ -93,7 +94,7 @@ fn from_texels(
         return Err(binder.place.wrong(texture.span(), "the texture has `texels` but no `size`", help));
     };
     let Some(extents) = extents(written.kind, size.get_ref()) else {
-        let message = format!("{} numbers are no size of such a texture", size.get_ref().len());
+        let message = format!("a `size` of {} numbers does not fit this kind of texture", size.get_ref().len());
         let help = "1d and cube have one number, 2d and rectangle two, volume three";
         return Err(binder.place.wrong(size.span(), message, help));
     };
@@ -103,7 +104,11 @@ fn from_texels(
     if expected != Some(texels.get_ref().len()) {
         let expected = expected.map_or_else(|| "far more".to_owned(), |number| number.to_string());
         let message = format!("expected {expected} texels for the size, found {}", texels.get_ref().len());
-        return Err(binder.place.wrong(texels.span(), message, "rows from the top, then faces or slices"));
+        return Err(binder.place.wrong(
+            texels.span(),
+            message,
+            "list the rows from the top, then the next face or slice",
+        ));
     }
     let wrong = |error: TextureError| binder.place.wrong(size.span(), error.to_string(), "change `size` or `mipmaps`");
     let listed = listed_levels(written);
@@ -152,7 +157,7 @@ fn fill(
     let found = texels.get_ref().len();
     if found != expected {
         let message = format!("expected {expected} texels in level {level}, found {found}");
-        return Err(binder.place.wrong(texels.span(), message, "each level has half the sides of the one before"));
+        return Err(binder.place.wrong(texels.span(), message, "each level has half the sides of the previous level"));
     }
     let mut values = texels.get_ref().iter();
     for slice in 0..extent.slices {
@@ -161,7 +166,7 @@ fn fill(
                 if raw {
                     let code = stored(image.format(), texel).map_err(|expected| {
                         let message = format!("expected {expected} in texel ({x}, {y}), found {}", list(texel));
-                        binder.place.wrong(texels.span(), message, "or leave `raw` out and write numbers")
+                        binder.place.wrong(texels.span(), message, "or remove `raw` and write numbers")
                     })?;
                     image.set_raw(level, slice, y, x, code);
                     continue;
@@ -191,8 +196,8 @@ fn from_file(
 ) -> Result<Image, CaseError> {
     let path = binder.path(file.get_ref());
     if written.raw {
-        let help = "list `texels`, or leave `raw` out";
-        return Err(binder.place.wrong(file.span(), "`raw` codes of a picture", help));
+        let help = "remove `raw`, or list `texels`";
+        return Err(binder.place.wrong(file.span(), "`raw` is for `texels`, but the texture has a `file`", help));
     }
     let wrong = |message: String, help: &str| binder.place.wrong(file.span(), message, help);
     if matches!(written.kind, TextureKind::Cube | TextureKind::Volume) || !listed_levels(written).is_empty() {
@@ -201,16 +206,18 @@ fn from_file(
     }
     let bytes = read_limited(&path, MAX_BYTES)
         .map_err(|source| binder.place.unreadable(file.span(), path.clone(), source))?
-        .ok_or_else(|| wrong(format!("expected a picture file of at most {MAX_BYTES} bytes"), "use a smaller one"))?;
+        .ok_or_else(|| {
+            wrong(format!("expected a picture file of at most {MAX_BYTES} bytes"), "use a smaller picture")
+        })?;
     let picture = png_codes(&bytes).map_err(|error| {
-        let help = "save the picture as PNG, 8 or 16 bits a channel, small enough to be read";
+        let help = "save the picture as PNG with 8 or 16 bits per channel, or make it smaller";
         wrong(format!("`{}`: {error}", path.display()), help)
     })?;
     if let Some(size) = &written.size {
         let found = [picture.width(), picture.height()];
         if extents(written.kind, size.get_ref()) != Some([found[0], found[1], 1]) {
             let message = format!("the picture is {}x{}, not what `size` says", found[0], found[1]);
-            return Err(binder.place.wrong(size.span(), message, "leave `size` out: a picture has its own"));
+            return Err(binder.place.wrong(size.span(), message, "remove `size`: a picture has its own size"));
         }
     }
     // A channel of n bits is k / (2^n - 1), rounded once to single precision; the texel format then quantises it.
@@ -230,7 +237,7 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture, image: &Image) -> Res
         unused(
             written.filter.as_ref().map(Spanned::span),
             "`filter` in addition to `min` and `mag`",
-            "it has no effect",
+            "remove `filter`: it has no effect",
         )?;
     }
     let border = written.border.as_ref().map(Spanned::span);
@@ -264,7 +271,11 @@ fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMod
         name.parse().map_err(|_| {
             let message = format!("expected wrap, mirror, clamp or border, found `{name}`");
             let meant = did_you_mean(name, ["wrap", "mirror", "clamp", "border"]);
-            binder.place.wrong(address.span(), message, format!("{meant}one for all axes, or a list with one an axis"))
+            binder.place.wrong(
+                address.span(),
+                message,
+                format!("{meant}write one mode for all axes, or a list with one per axis"),
+            )
         })
     };
     let modes = address.get_ref().0.iter().map(mode).collect::<Result<Vec<AddressMode>, _>>()?;
@@ -278,8 +289,8 @@ fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMod
         [u, v] if axes == 2 => Ok([u, v, AddressMode::Clamp]),
         [u, v, w] if axes == 3 => Ok([u, v, w]),
         _ => {
-            let message = format!("expected 1 address mode or {axes}, one an axis, found {}", modes.len());
-            Err(binder.place.wrong(address.span(), message, "one for all axes, or one an axis"))
+            let message = format!("expected 1 address mode or {axes}, one per axis, found {}", modes.len());
+            Err(binder.place.wrong(address.span(), message, "write one mode for all axes, or one per axis"))
         }
     }
 }

@@ -42,7 +42,7 @@ impl Binder<'_> {
                 let meant = did_you_mean(name, declared().map(|p| p.name.as_str()));
                 let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
                 return Err(input_error!("crossbar::case::uniform" =>
-                    "`{}` has no uniform `{name}`", text.name(); help "{meant}it has {known}")
+                    "`{}` has no uniform `{name}`", text.name(); help "{meant}the shader has {known}")
                 .into());
             };
             let value = of_width(name, parameter.width, value).map_err(|message| {
@@ -61,8 +61,8 @@ impl Binder<'_> {
                 let numbers = NUMBERS[width - 1];
                 Err(input_error!("crossbar::case::uniform" =>
                     "`{}` reads the uniform `{name}`, which has no value", text.name();
-                    help "give it one: `\"{name}\" = [{numbers}]` in [constants] of a case, or, with `crossbar run` and \
-                          `precision`, `--uniform {name}={numbers}`")
+                    help "give the uniform a value: `\"{name}\" = [{numbers}]` in [constants] of a case, or, with \
+                          `crossbar run` and `precision`, `--uniform {name}={numbers}`")
                 .into())
             }
             None => Ok(constants),

@@ -203,7 +203,7 @@ pub(super) fn whole(number: &Number) -> Option<i64> {
     }
 }
 
-/// Converts up to four numbers; missing ones come from (0, 0, 0, 1), as Direct3D expands vertex data.
+/// Converts up to four numbers; missing numbers come from (0, 0, 0, 1), as Direct3D expands vertex data.
 pub(super) fn vector(numbers: &[Number]) -> Option<[u32; 4]> {
     if numbers.is_empty() || numbers.len() > 4 {
         return None;

@@ -64,7 +64,7 @@ pub(super) fn bind(
         None => Vertices::Transformed(places.map(|place| reader.plain(place)).collect::<Result<_, _>>()?),
     };
     if let (true, Some(primitive)) = (written.full_screen, &written.primitive) {
-        let help = "leave `primitive` out: the screen is one quad";
+        let help = "remove `primitive`: the screen is one quad";
         return Err(binder.place.wrong(primitive.span(), "both `primitive` and `full_screen`", help));
     }
     let usual = if written.full_screen { Primitive::QuadList } else { Primitive::TriangleList };
@@ -104,7 +104,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Default attributes of all vertices, then the attributes of this one.
+    /// Default attributes of all vertices, then the attributes of this vertex.
     fn all(&self, place: &CaseVertex<'a>) -> impl Iterator<Item = (&'a String, &'a Spanned<Vec<Number>>)> {
         let own = if let CaseVertex::Vertex(written) = place { Some(written.get_ref()) } else { None };
         self.geometry.get_ref().attributes.iter().chain(own.into_iter().flatten())
@@ -115,7 +115,8 @@ impl<'a> Reader<'a> {
         let position = self.all(&place).find(|(name, _)| *name == "position");
         match (&place, position) {
             (CaseVertex::Vertex(written), None) => {
-                let help = "write for example `position = [-1, 1]`: clip space, z 0 and w 1 if left out";
+                let help =
+                    "write for example `position = [-1, 1]`: in clip space; z is 0 and w is 1 if they are omitted";
                 return Err(self.binder.place.wrong(written.span(), "the vertex has no `position`", help));
             }
             (CaseVertex::Corner(_), Some((_, value))) => {
@@ -146,7 +147,7 @@ impl<'a> Reader<'a> {
             let help = "without [vertex], the pixel program gets the vertices";
             return Err(self.binder.place.wrong(value.span(), message, help));
         } else if !self.pixel_reads_fog {
-            let message = "`fog`, but the pixel program reads no fog coordinate";
+            let message = "the vertex has `fog`, but the pixel program reads no fog coordinate";
             let help = "remove `fog`, or read it in the program, as `f[FOGC]` or `fragment.fogcoord`: fixed-function fog is not emulated";
             return Err(self.binder.place.wrong(value.span(), message, help));
         } else {

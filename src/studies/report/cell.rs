@@ -17,7 +17,7 @@ pub enum Cell {
     Real(Figure),
     /// Boolean, shown as yes or no.
     Flag(bool),
-    /// Summary of rows that were omitted because their results equal a row's above.
+    /// Summary of rows that were omitted because their results equal those of a row above.
     Folded(Folded),
     /// Empty cell.
     Empty,

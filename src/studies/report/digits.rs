@@ -7,7 +7,7 @@ pub enum Quantity {
     /// A setting, or a value shown in full: the shortest text that reads back to the same number.
     #[default]
     Exact,
-    /// Printed value of a paper, or our value of it: this many decimals.
+    /// Printed value of a paper, or our value for it, with this many decimals.
     Decimals(u8),
     /// Measured or computed time, rate or size: four significant digits, and at least the integer part.
     Measured,
@@ -47,7 +47,7 @@ pub fn count(count: u64) -> String {
     grouped(&count.to_string())
 }
 
-/// Formats as the shortest text that reads back to the same number: plain digits near one, an exponent far from it.
+/// Formats as the shortest text that reads back to the same number: plain digits near 1, an exponent far from 1.
 pub fn exact(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 {

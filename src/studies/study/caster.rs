@@ -36,11 +36,11 @@ pub struct CasterOptions {
     #[arg(long, value_name = "D")]
     caster_device: Option<String>,
 
-    /// Number format of that card's programs, in place of its own; `radiosity` compares several
+    /// Number format of that card's programs, instead of the card's own; `radiosity` compares several formats
     #[arg(long, value_name = "F")]
     caster_format: Vec<String>,
 
-    /// Octree of the engine: cells of more triangles are divided, up to a depth of 20 [default: 8,10]
+    /// Octree of the engine: cells of more than TRIANGLES are divided, down to DEPTH, at most 20 [default: 8,10]
     #[arg(long, value_name = "TRIANGLES,DEPTH", value_parser = pair)]
     octree: Option<[u32; 2]>,
 
@@ -48,12 +48,12 @@ pub struct CasterOptions {
     #[arg(long, value_name = "LEAST,MOST", value_parser = pair)]
     pass_triangles: Option<[u32; 2]>,
 
-    /// Rays per pass on the card; the host tests the rays of cells that fewer rays meet [default: 64]
+    /// Rays per pass on the card; if fewer rays meet a cell, the host tests them [default: 64]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=65536))]
     pass_rays: Option<u32>,
 
-    /// When results of a pass are taken: sync (the host waits), async:N (N passes in flight), free (passes take no
-    /// time) [default: sync]
+    /// When the host takes the results of a pass: sync (the host waits), async:N (N passes in flight), free (passes
+    /// take no time) [default: sync]
     #[arg(long, value_name = "MODE", value_parser = readback)]
     readback: Option<Readback>,
 }
@@ -81,7 +81,7 @@ fn pair(text: &str) -> Result<[u32; 2], String> {
 }
 
 impl CasterOptions {
-    /// Returns `true` if a caster is named.
+    /// Returns `true` if a caster is given.
     pub fn is_named(&self) -> bool {
         self.caster.is_some()
     }
@@ -99,7 +99,7 @@ impl CasterOptions {
     pub fn choose(&self, executor: Executor) -> Result<CasterChoice, StudyError> {
         match &mut self.choose_each(executor)?[..] {
             [one] => Ok(std::mem::take(one)),
-            _ => Err(StudyError::usage("expected one `--caster-format` here, found several", "name one")),
+            _ => Err(StudyError::usage("expected one `--caster-format` here, found several", "give only one")),
         }
     }
 
@@ -135,7 +135,7 @@ impl CasterOptions {
         }
         if parameters.octree.most_depth > 20 || parameters.triangles.is_empty() {
             let what = "expected a depth of `--octree` of at most 20, and LEAST of `--pass-triangles` not above MOST";
-            return Err(StudyError::usage(what, "as in `--octree 8,10 --pass-triangles 5,15`"));
+            return Err(StudyError::usage(what, "write for example `--octree 8,10 --pass-triangles 5,15`"));
         }
         parameters.rays = pass_rays.map_or(parameters.rays, |rays| rays as usize);
         parameters.readback = readback.unwrap_or_default();
@@ -257,7 +257,8 @@ pub struct CastRecord {
     pub counts: EngineCounts,
     /// Modelled time of the passes, without the tests on the host; `None` for cards without rates.
     pub card: Option<Picoseconds>,
-    /// Number of answers that differ from exact arithmetic: another triangle or none; for shadow rays, lit or not.
+    /// Number of answers that differ from exact arithmetic: for shadow rays, in whether light arrives; for others, in
+    /// the triangle or in whether there is one.
     /// `None` if the answers were not compared.
     pub differing: Option<u64>,
 }

@@ -4,7 +4,7 @@ use refsim::device::{DeviceError, Profile};
 
 use crate::case::device_named;
 
-/// Switch that only affects generated mip levels. Studies whose cards generate none omit it.
+/// Switch that only affects generated mip levels. Studies whose cards generate no mip levels omit it.
 const MIPMAP_SWITCH: &str = "mipmap-rounding";
 
 /// Device configuration of a study's row.

@@ -18,7 +18,7 @@ use crate::subsurface::{Dipole, materials};
 /// Maximum relative error of link factors.
 const TOLERANCE: f64 = 0.05;
 
-/// A model of marble, ready to be lit and drawn.
+/// A marble model, ready to be lit and drawn.
 pub(super) struct MarbleModel {
     model: CardModel,
     textures: LinkTextures,

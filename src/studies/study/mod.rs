@@ -35,7 +35,7 @@ pub trait Study {
     /// Runs the study. Fails if the input does not suit the study, or a library refuses it.
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError>;
 
-    /// Adds the devices, switches and seed that are used; by default there are none.
+    /// Adds the devices, switches and seed that are used; the default adds nothing.
     fn provenance(&self, provenance: Provenance) -> Provenance {
         provenance
     }

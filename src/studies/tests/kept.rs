@@ -43,7 +43,7 @@ fn work_that_was_stopped_goes_on() {
             "2" => ["crossbar 2", "crossbar 1"],
             _ => ["crossbar reproduce b", "crossbar reproduce a"],
         };
-        assert!(refused.ends_with(&format!("\n{expected}\nfound one of\n{found}")), "{refused}");
+        assert!(refused.ends_with(&format!("\n{expected}\nfound a result of\n{found}")), "{refused}");
         let before = computed.get();
         assert_eq!(get(&kept(program, entry), "one").expect("computed").0, before + 1, "of other work");
     }

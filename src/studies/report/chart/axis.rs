@@ -152,7 +152,7 @@ fn logarithmic_ticks(low: f64, high: f64) -> Vec<f64> {
     if ticks.len() >= 2 { ticks } else { linear_ticks(low, high) }
 }
 
-/// Formats a tick: plain digits near one, a power of ten far from it.
+/// Formats a tick: plain digits near 1, a power of ten far from 1.
 fn tick_text(tick: f64) -> String {
     let magnitude = tick.abs();
     if tick == 0.0 || (1e-3..1e6).contains(&magnitude) { format!("{tick}") } else { format!("{tick:e}") }

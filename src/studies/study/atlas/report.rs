@@ -13,12 +13,14 @@ use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
 use crate::scene::Camera;
 use crate::study::{ProgressFn, Study, StudyError};
 
-const COMPACTNESS: &str = "Compactness is a cluster's area over the area of a disc with the radius of its ball: 1 for a flat disc, 0.64 for a flat \
-    square, 0.41 for an equilateral triangle, and more for folded surfaces, such as a whole closed surface. One cluster in twenty is below \
-    low_compactness. The last columns count the tree's nodes that have the size of a texel of the level and more than one face.";
+const COMPACTNESS: &str = "A cluster's compactness is its area divided by the area of a disc with the radius of its \
+    ball: 1 for a flat disc, 0.64 for a flat square, 0.41 for an equilateral triangle, and more for folded surfaces, \
+    such as a whole closed surface. One cluster in twenty is less compact than low_compactness. The last columns \
+    count the nodes of the cluster tree that have the size of a texel of the level and more than one face.";
 
-const EVENNESS: &str = "Areas are relative to the mean over all texels. Each face owns a rectangle whose sides are powers of two, and can only get \
-    twice or half as many texels: areas vary by about a factor of 2 even if all faces are alike.";
+const EVENNESS: &str = "Areas are relative to the mean over all texels. Each face owns a rectangle whose sides are \
+    powers of two, so its number of texels can only double or halve: areas vary by about a factor of 2 even if all \
+    faces are alike.";
 
 /// Error of a mesh without an atlas.
 pub fn no_atlas(error: InputError) -> StudyError {
@@ -91,12 +93,12 @@ fn conclude(found: &mut Findings, atlas: &Atlas, quality: &AtlasQuality) {
         percent(quality.deviation)
     ));
     found.conclusion(format!(
-        "{} of the clusters are connected, {} simply connected.",
+        "{} of the clusters are connected, and {} are simply connected.",
         share(quality.connected),
         share(quality.simply_connected)
     ));
     if !atlas.has_given_normals() {
-        found.conclusion("The mesh has no normals: each vertex takes the mean normal of its faces.");
+        found.conclusion("The mesh has no normals: each vertex gets the mean normal of its faces.");
     }
 }
 
@@ -108,9 +110,9 @@ fn evenness(atlas: &Atlas, quality: &AtlasQuality) -> Table {
     row("area of the surface", Cell::measured(atlas.area()));
     row("mean area of a texel", Cell::measured(atlas.mean_texel_area()));
     row("standard deviation of the texel areas, divided by their mean", Cell::measured(quality.deviation));
-    row("the same, weighted by area", Cell::measured(quality.deviation_by_area));
-    row("least area over the mean", Cell::measured(quality.least));
-    row("largest area over the mean", Cell::measured(quality.most));
+    row("the same deviation, weighted by area", Cell::measured(quality.deviation_by_area));
+    row("smallest texel area, divided by the mean", Cell::measured(quality.least));
+    row("largest texel area, divided by the mean", Cell::measured(quality.most));
     table
 }
 
@@ -142,7 +144,7 @@ fn census(atlas: &Atlas) -> Table {
         ("edges of more than two faces", census.crowded_edges),
         ("edges traversed twice in the same direction", census.orientation_conflicts),
         ("faces without area", census.faces_without_area),
-        ("faces that lie on another", census.duplicate_faces),
+        ("faces that lie on another face", census.duplicate_faces),
     ] {
         table.push([what.into(), count.into()]);
     }

@@ -25,11 +25,23 @@ impl Tally {
 /// Unit of the counts, singular and plural.
 pub(super) type CountUnit = [&'static str; 2];
 
-/// Adds the finding, verdict, seams and tally to the findings.
+/// Sentence about the card in the headline.
+const RADEON: &str = "The Radeon 8500 (R200) is ATI's card of 2001, the first with ps_1_4; its pixel arithmetic is \
+                      16-bit fixed point.";
+/// Sentence about leaks.
+const LEAK: &str = "A leak is a ray that should hit the surface but misses it: it can slip between two triangles that \
+                    share an edge, so the background shows.";
+
+/// Adds the conclusion and the tally to the findings.
 pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUnit) {
-    let sentences = [most_leaks(rows, unit), verdict(rows, unit), seams(rows), cured(rows)];
-    let limited: Vec<(&str, FormatLimits)> = rows.iter().map(|row| (label(row), row.limits)).collect();
-    sentences.into_iter().flatten().chain(limits(&limited)).for_each(|sentence| found.conclusion(sentence));
+    let sentences = [verdict(rows, unit), seams(rows), cured(rows)].into_iter().flatten();
+    let limits: Vec<(&str, FormatLimits)> = rows.iter().map(|row| (label(row), row.limits)).collect();
+    let lost = [
+        limited(&limits, FormatLimits::loses_normals, FormatLimits::lost_normals),
+        limited(&limits, FormatLimits::is_coarse, FormatLimits::coarse_distances),
+    ];
+    let all = most_leaks(rows, unit).into_iter().chain(sentences).chain(lost.into_iter().flatten());
+    all.for_each(|sentence| found.conclusion(sentence));
     let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
     let right = [format!("row right in every {}", unit[0]), format!("rows right in every {}", unit[0])];
     found.tally(rows_with(|t| t.wrong() == 0), right.each_ref().map(String::as_str), Tone::Good);
@@ -38,16 +50,15 @@ pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUni
     found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
 }
 
-/// Warnings about formats with too few bits, each once, with the rows that they apply to.
-fn limits(rows: &[(&str, FormatLimits)]) -> Vec<String> {
-    let mut warnings: Vec<(String, Vec<&str>)> = Vec::new();
-    for (name, warning) in rows.iter().filter_map(|(name, limits)| Some((*name, limits.warning()?))) {
-        match warnings.iter_mut().find(|(known, _)| *known == warning) {
-            Some((_, rows)) => rows.push(name),
-            None => warnings.push((warning, vec![name])),
-        }
-    }
-    warnings.into_iter().map(|(warning, rows)| format!("{}: {warning}.", names(&rows))).collect()
+/// Sentence about the rows whose format loses something; `None` if no row does.
+fn limited(
+    rows: &[(&str, FormatLimits)],
+    is_limited: fn(&FormatLimits) -> bool,
+    clause: fn(&[FormatLimits]) -> String,
+) -> Option<String> {
+    let (labels, limits): (Vec<&str>, Vec<FormatLimits>) =
+        rows.iter().copied().filter(|(_, limits)| is_limited(limits)).unzip();
+    (!labels.is_empty()).then(|| format!("In {}, {}.", names(&labels), clause(&limits)))
 }
 
 fn names(rows: &[&str]) -> String {
@@ -70,35 +81,39 @@ fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
             format!("No row is right in every {one}; {} is wrong in the fewest: {wrong}.", label(best))
         }
         (_, 0) => format!("Every row is right in every {one}."),
-        (1, others) => format!("Of {} rows only {names} is right in every {one}.", count(others as u64 + 1)),
-        (some, others) => format!("Of {} rows {names} are right in every {one}.", count((some + others) as u64)),
+        (1, others) => format!("Of {} rows, only {names} is right in every {one}.", count(others as u64 + 1)),
+        (some, others) => format!("Of {} rows, {names} are right in every {one}.", count((some + others) as u64)),
     })
 }
 
-/// The finding: the fraction of the surface that the leakiest row loses. If they were traced, also the fractions that
-/// its card loses when it rounds to nearest, and when it evaluates each edge once. `None` if no row leaks.
-fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
+/// The headline: the fraction of the surface that the leakiest row loses; if they were traced, also the fractions that
+/// its card loses when it rounds to nearest, and when it evaluates each edge once. Then what a newcomer needs to read
+/// it: the card and a leak. Empty if no row leaks.
+fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Vec<String> {
     // The first one on a tie.
-    let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
+    let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0);
+    let Some(worst) = worst else { return Vec::new() };
     let Tally { leaks, surface, .. } = worst.tally;
     let loses = |row: &TeapotRow| percent(row.tally.leak_share());
     let card = &worst.configuration.profile.name;
     let as_is = is_row(worst, card, EdgeRule::Paper, false);
     let relief = [
-        (EdgeRule::Paper, true, "rounded to nearest it loses"),
-        (EdgeRule::SharedEdges, false, "with each edge evaluated once"),
+        (EdgeRule::Paper, true, "rounded to nearest, it loses"),
+        (EdgeRule::SharedEdges, false, "with each edge evaluated once, it loses"),
     ];
     let relief = relief.into_iter().filter(|_| as_is).filter_map(|(edges, nearest, words)| {
         rows.iter().find(|row| is_row(row, card, edges, nearest)).map(|row| format!("; {words} {}", loses(row)))
     });
-    Some(format!(
+    let headline = format!(
         "{} loses {} of the surface's {more}: {} of {} leak{}.",
         arithmetic(worst),
         loses(worst),
         count(leaks),
         counted(surface, one, more),
         relief.collect::<String>(),
-    ))
+    );
+    let card = name(worst).starts_with("ATI Radeon 8500").then_some(RADEON);
+    std::iter::once(headline).chain(card.into_iter().chain([LEAK]).map(str::to_owned)).collect()
 }
 
 /// Returns `true` for the row with this card and edge rule, rounded to nearest if `nearest`, otherwise as the card
@@ -139,13 +154,13 @@ fn arithmetic(row: &TeapotRow) -> String {
     };
     let rounded = match rounding {
         Rounding::Down => ", rounded down,",
-        Rounding::TowardZero => ", cut,",
+        Rounding::TowardZero => ", rounded toward zero,",
         _ => "",
     };
     format!("The {bits}-bit {kind} arithmetic of the {name}{rounded}")
 }
 
-/// Sentence about the rows with shared edges; `None` if there are none, or no rays were aimed at the inside of the
+/// Sentence about the rows with shared edges; `None` without such rows, or if no rays were aimed at the inside of the
 /// surface.
 fn cured(rows: &[TeapotRow]) -> Option<String> {
     let shared = || rows.iter().filter(|row| row.edge_rule == EdgeRule::SharedEdges);
@@ -157,30 +172,30 @@ fn cured(rows: &[TeapotRow]) -> Option<String> {
     let [edges, vertices] = [most(1)?, most(2)?];
     (edges.rays > 0).then(|| {
         format!(
-            "With shared edges {} rays aimed at edges inside the surface leak, and {} aimed at vertices.",
+            "With shared edges, {} rays aimed at edges inside the surface leak, and {} rays aimed at vertices.",
             said(edges),
             said(vertices)
         )
     })
 }
 
-/// Sentence about the rays aimed at edges, with the paper's program; `None` if there were none.
+/// Sentence about the rays aimed at edges, with the paper's program; `None` without such rays.
 fn seams(rows: &[TeapotRow]) -> Option<String> {
     let rows: Vec<&TeapotRow> = rows.iter().filter(|row| row.edge_rule == EdgeRule::Paper).collect();
     let shares = rows.iter().filter(|row| row.edges.surface > 0).map(|row| row.edges.leak_share());
     let leaking = rows.iter().filter(|row| row.edges.leaks > 0).count();
     let least = shares.clone().min_by(f64::total_cmp)?;
     let most = shares.max_by(f64::total_cmp)?;
-    let share = if leaking == 0 {
-        "none leaks".to_owned()
+    let (share, place) = if leaking == 0 {
+        ("none".to_owned(), String::new())
     } else if leaking < rows.len() {
-        format!("up to {} leak, in {leaking} of {} rows", percent(most), rows.len())
+        (format!("up to {}", percent(most)), format!(", in {leaking} of {} rows", rows.len()))
     } else if least == most {
-        format!("{} leak", percent(most))
+        (percent(most), String::new())
     } else {
-        format!("some leak in every row: {} to {}", percent(least), percent(most))
+        (format!("{} to {}", percent(least), percent(most)), ", depending on the row".to_owned())
     };
-    Some(format!("With the paper's program, of the rays aimed at shared edges {share}."))
+    Some(format!("With the paper's program, {share} of the rays aimed at shared edges leak{place}."))
 }
 
 fn label(row: &TeapotRow) -> &str {

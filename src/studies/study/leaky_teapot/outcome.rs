@@ -97,7 +97,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Leaks as a fraction of the rays that hit in exact arithmetic, in [0, 1]; 0 if there are none.
+    /// Leaks as a fraction of the rays that hit in exact arithmetic, in [0, 1]; 0 if no ray hits.
     pub fn leak_share(&self) -> f64 {
         if self.surface == 0 { 0.0 } else { self.leaks as f64 / self.surface as f64 }
     }

@@ -57,12 +57,12 @@ impl PixelVerdict {
     /// Name of the verdict.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Nothing => "nothing there",
-            Self::Right => "right",
+            Self::Nothing => "right: no hit, no surface",
+            Self::Right => "right: the exact triangle",
             Self::WrongNeighbour => "a wrong triangle that touches the right one",
             Self::WrongTriangle => "a wrong triangle that does not touch the right one",
-            Self::FalseHit => "a false hit: a hit where no surface is",
-            Self::Leak => "a leak: no hit where the surface is",
+            Self::FalseHit => "a false hit: a hit where there is no surface",
+            Self::Leak => "a leak: no hit where there is a surface",
         }
     }
 

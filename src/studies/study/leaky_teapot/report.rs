@@ -177,7 +177,7 @@ fn pair(group: &Group<'_>) -> [NamedPicture; 2] {
         NamedPicture::new(
             format!("{label}-map"),
             row.map.clone(),
-            format!("{name}, what is wrong where: {}", listed(&counts)),
+            format!("{name}, map of the errors: {}", listed(&counts)),
         ),
     ]
 }
@@ -207,8 +207,9 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     }
     found.heading("The figures");
     found.paragraph(
-        "largest_t_error is in multiples of the ray's direction. A pixel differs if its shaded colour does. r200 rows: the \
-         card as in its profile, then with each open switch of the hardware changed, one at a time.",
+        "largest_t_error counts multiples of the ray's direction. pixels_differing counts pixels whose shaded color \
+         differs. The r200 rows are the card as in its profile, then with each open switch of the hardware changed, \
+         one at a time.",
     );
     found.table(rows.csv("rows").field("rows"));
     if aimed(parameters) {
@@ -224,11 +225,11 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     if let Some(programs) = programs {
         found.heading("Where an edge is evaluated once");
         found.paragraph(
-            "Rows with shared edges sort the corners of each triangle, and compute an edge from its own two corners alone, by \
-             the same operations in both of its triangles: both get the same bits, one asks for at least 0, the other for at \
-             most 0, so no ray is outside both. Near a vertex every edge of the fan can still be rounded to the same side. \
-             Only rays are counted whose first hit lies where all surrounding triangles face the eye: near an outline, a \
-             miss may be right for the rounded ray.",
+            "Rows with shared edges sort the corners of each triangle, and compute an edge from its own two corners \
+             alone, by the same operations in both of its triangles. Both get the same bits; one requires at least 0, \
+             the other at most 0, so no ray is outside both. Near a vertex, rounding can still put a ray outside all \
+             triangles that meet there. The table counts only rays whose first hit lies where all surrounding \
+             triangles face the eye, because near an outline a miss may be right for the rounded ray.",
         );
         found.table(FoundTable::from(programs).csv("programs").field("programs"));
     }
@@ -282,18 +283,22 @@ fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutco
     let triangles = counted(parameters.mesh.len() as u64, "triangle", "triangles");
     found.paragraph(match &parameters.model {
         None => format!(
-            "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card: {asked} from the eye and \
-             {triangles}, in several number formats, judged against first hits that are decided in exact arithmetic on \
-             the same inputs. A ray leaks if it misses a surface that it should hit: the paper's program evaluates the \
-             edge of two triangles once for each of them, and rounding can put the ray outside both."
+            "This is Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002) on an emulated card, with {asked} from \
+             the eye and {triangles}, in several number formats. The hits are judged against first hits that are \
+             decided in exact arithmetic on the same inputs. A ray leaks if it misses a surface that it should hit: \
+             the paper's program evaluates the edge of two triangles once for each of them, and rounding can put the \
+             ray outside both."
         ),
         Some(model) => format!(
-            "{asked} and the {triangles} of {model} on an emulated card, by the programs of the Ray Engine paper (Carr, \
-             Hall, Hart 2002), judged against first hits that are decided in exact arithmetic on the same inputs."
+            "An emulated card intersects {asked} with the {triangles} of {model}, by the programs of the Ray Engine \
+             paper (Carr, Hall, Hart 2002). Its hits are judged against first hits that are decided in exact \
+             arithmetic on the same inputs."
         ),
     });
     if parameters.listed.is_some() {
-        found.paragraph("The rays are a list: pictures show them row by row, in the order of the file, a pixel each.");
+        found.paragraph(
+            "The rays are a list: pictures show them row by row, in the order of the file, one pixel per ray.",
+        );
     }
     if !groups.is_empty() {
         found.heading("The other rows");

@@ -17,7 +17,7 @@ pub struct MatrixOperands {
     pub(super) a: MatrixRows,
     /// Columns of B.
     pub(super) b: MatrixRows,
-    /// C, row by row, in the type of the unit; zeros if there is none.
+    /// C, row by row, in the type of the unit; zeros if the product has no C.
     pub(super) c: Vec<u64>,
     /// Numbers of A and B, multiplied by their scales.
     numbers: [Vec<f64>; 2],

@@ -13,9 +13,9 @@ use crate::study::{ProgressFn, Study, StudyError};
 const MOST_ADDENDS: usize = 10;
 const MOST_LINES: usize = 12;
 
-const ERRORS: &str = "Errors are relative to the reference's magnitude, per element: worst is the largest, mean is \
-    positive if results are too large, bits is -log2 of the worst; of_addends is the largest error relative to the sum \
-    of the magnitudes of an element's addends, which cancellation does not enlarge.";
+const ERRORS: &str = "Errors are relative to the magnitude of the reference, per element. worst is the largest error; \
+    mean is signed, and positive if results are too large; bits is -log2 of worst. of_addends is the largest error \
+    relative to the sum of the magnitudes of an element's addends, so cancellation does not enlarge it.";
 
 impl ProductRow {
     fn name(&self) -> String {
@@ -71,7 +71,7 @@ fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result<Findings, 
             Some(step) if step == depth => "it meets the goal with one accumulator".to_owned(),
             Some(step) => format!("promotion every {step} products is the least frequent that meets the goal"),
         };
-        found.conclusion(format!("{goal}: {bits}; as it is, {promotion}."));
+        found.conclusion(format!("{goal}: {bits}; with its own bits, {promotion}."));
         found.field("fewest_bits", json!(outcome.fewest_bits));
         found.field("rarest_promotion", json!(outcome.rarest_promotion));
         found.conclude(Verdict::held(outcome.fewest_bits.is_some() || outcome.rarest_promotion.is_some()));
@@ -106,7 +106,7 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
         differ
     } else {
         format!(
-            "After {depth} products {} is off by up to {} of an element ({:.1} bits are right); {differ}",
+            "After {depth} products, {} is off by up to {} of an element ({:.1} bits are right); {differ}",
             worst.name(),
             error(errors.worst),
             errors.bits(),
@@ -118,7 +118,8 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
     found.conclusion(sentence);
     if errors.not_finite > 0 {
         found.conclusion(format!(
-            "{} of {elements} elements are infinite or NaN by {} or in {reference}; the errors exclude them.",
+            "{} of {elements} elements are infinite or NaN in the result of {} or in {reference}; the errors exclude \
+             them.",
             errors.not_finite,
             worst.name(),
         ));
@@ -192,7 +193,7 @@ fn add_blame(found: &mut Findings, study: &MatrixProduct, blame: &Blame) {
     found.keep_table(FoundTable::from(table("All addends of the block", &fates)).csv("addends").field("addends"));
     fates.sort_by(|x, y| (y.exact - y.kept).abs().total_cmp(&(x.exact - x.kept).abs()));
     fates.truncate(MOST_ADDENDS);
-    let title =
-        "Addends with the largest losses: products by their k, c (the sum before the block), result (its rounding)";
+    let title = "Addends with the largest losses: a number is the k of a product, c is the sum before the block, \
+                 result is its rounding";
     found.table(FoundTable::from(table(title, &fates)));
 }

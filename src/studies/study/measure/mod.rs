@@ -1,4 +1,4 @@
-//! Study of measured pixels: the settings of a device's switches that draw what a card drew.
+//! Study of measured pixels: the settings of a device's switches that reproduce what a card drew.
 //!
 //! docs/measuring.md describes how to measure.
 

@@ -10,7 +10,7 @@ use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 /// Maximum number of settings, and of codes, shown.
 const MOST_SHOWN: usize = 20;
 
-/// Tables of values and settings; the verdict is positive if a setting draws every measured code.
+/// Tables of values and settings; the verdict is positive if a setting reproduces every measured code.
 pub(super) fn findings(measure: &Measure, survey: &Survey) -> Findings {
     let fitting: Vec<&Setting> = survey.fitting().collect();
     let pixels: usize = measure.cases.iter().map(|case| case.pixels.len()).sum();

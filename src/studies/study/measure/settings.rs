@@ -36,7 +36,7 @@ pub(super) struct Question {
 /// Values of some switches: index of the switch to index of its value. Other switches have their defaults.
 pub(super) type Setting = BTreeMap<usize, usize>;
 
-/// Counts of measured codes that each setting draws.
+/// Counts of measured codes that each setting reproduces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Survey {
     pub(super) questions: Vec<Question>,
@@ -97,7 +97,7 @@ impl Survey {
         Ok(Self { questions, relevant, settings, codes, wrong })
     }
 
-    /// Settings that draw every measured code.
+    /// Settings that reproduce every measured code.
     pub(super) fn fitting(&self) -> impl Iterator<Item = &Setting> {
         self.settings.iter().filter(|(_, right)| *right == self.codes).map(|(setting, _)| setting)
     }

@@ -53,8 +53,9 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
                 main {
                     h1 { "Your GPU against the cards of 2001" }
                     p {
-                        "This page runs the arithmetic of early graphics cards on your GPU, in whole numbers, and compares \
-                         every bit with Crossbar's emulator, whose results it carries. Beside it stand your GPU's own floats."
+                        "This page runs the arithmetic of early graphics cards on your GPU, in whole numbers, and \
+                         compares every bit with the results of Crossbar's emulator, which the page contains. It also \
+                         shows your GPU's own floats."
                     }
                     p #status role="status" { "Waiting for the script. Without it the page shows stored pictures." }
                     dl #adapter {}
@@ -83,9 +84,9 @@ fn arithmetic() -> Markup {
         section aria-labelledby="integers" {
             h2 #integers { "Operations by formats, in whole numbers" }
             p {
-                "Each cell: how many of its operand sets give other bits on your GPU than in the emulator. It must be 0 \
-                 everywhere, on every GPU, because only integers are used. A cell that is not 0 names the first operands \
-                 that differ."
+                "Each cell counts the operand sets whose bits on your GPU differ from the emulator's. The count must \
+                 be 0 everywhere, on every GPU, because only integers are used. A count above 0 links to the first \
+                 operands that differ."
             }
             div.scroll tabindex="0" role="region" aria-label="Operations by formats" { table #cells {} }
             div #differences {}
@@ -94,9 +95,9 @@ fn arithmetic() -> Markup {
         section aria-labelledby="floats" {
             h2 #floats { "Your GPU's own floats" }
             p {
-                "The same operands in the GPU's own arithmetic: distance of its results from the exact result rounded to \
-                 nearest, in units in the last place (ULP), for normal operands and results. The last column \
-                 says what WGSL requires."
+                "These tables use the same operands in the GPU's own arithmetic. They count results by their distance \
+                 from the exact result rounded to nearest, in units in the last place (ULP), for normal operands and \
+                 results. The last column says what WGSL requires."
             }
             div #native {}
         }
@@ -131,9 +132,10 @@ fn programs() -> Markup {
         section aria-labelledby="programs" {
             h2 #programs { "Programs, instruction by instruction" }
             p {
-                "Pixel programs of the published systems at one pixel. Every step that the emulator made is stored in the page; \
-                 your GPU makes it again in whole numbers, and each bit is compared. Beside it runs the same program, from the \
-                 same inputs, in your GPU's own floats. Choose a pixel by mouse or arrow keys; arrow keys on the listing step."
+                "These are pixel programs of the published systems, at one pixel. Every step that the emulator made is \
+                 stored in the page; your GPU makes it again in whole numbers, and each bit is compared. The same \
+                 program also runs, from the same inputs, in your GPU's own floats. Choose a pixel by mouse or arrow \
+                 keys; on the listing, arrow keys step."
             }
             div.stand {
                 div.chooser {
@@ -150,7 +152,7 @@ fn programs() -> Markup {
                         button #back type="button" disabled { "Back" }
                         button #forward type="button" disabled { "Forward" }
                         button #last type="button" disabled { "Last" }
-                        button #parting type="button" disabled { "Where floats part" }
+                        button #parting type="button" disabled { "Where the floats first differ" }
                         output #step-of {}
                     }
                     ol #source aria-label="Source" {}
@@ -196,9 +198,9 @@ fn fixed_views(views: &[FixedView]) -> Markup {
         section aria-labelledby="fixed" {
             h2 #fixed { "Fixed views, bit for bit" }
             p {
-                "Pictures of the emulator. Where your GPU can, it draws each again; triangle and distance of every pixel must \
-                 have the emulator's bits. All formats round to nearest; our Radeon 8500 computes in s3.12 rounded down, \
-                 which leaks most: choose it under Rounding above."
+                "These are pictures of the emulator. Your GPU draws each of them again if it can; triangle and \
+                 distance of every pixel must have the emulator's bits. All formats round to nearest; our Radeon 8500 \
+                 computes in s3.12 rounded down, which leaks most: choose this rounding above."
             }
             @for (v, view) in views.iter().enumerate() {
                 h3 { "Seen " (view.name) }
@@ -224,7 +226,7 @@ fn results() -> Markup {
     html! {
         section aria-labelledby="report" {
             h2 #report { "Results" }
-            p { "All that was found, as JSON: for a bug report, or for comparison with another GPU." }
+            p { "All results as JSON, for a bug report or for comparison with another GPU." }
             textarea #json rows="8" readonly aria-label="Results as JSON" { "{}" }
             p { button #copy type="button" disabled { "Copy" } " " span #copied role="status" {} }
         }

@@ -27,7 +27,7 @@ const WASM: &[u8] = b"\0asm";
 pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<String, StudyError> {
     if emulator.is_some_and(|bytes| !bytes.starts_with(WASM)) {
         let error = StudyError::new("page::emulator", "expected a WebAssembly module as the emulator");
-        return Err(error.with_help("name the file that `refsim/web/build` writes"));
+        return Err(error.with_help("give the file that `refsim/web/build` writes"));
     }
     let emulator = emulator.map(own::Emulator::new).transpose();
     let emulator = emulator.map_err(|error| not_encoded("gzip", error))?;

@@ -1,5 +1,5 @@
 //! Programs instruction by instruction: the results of the scalar executor at every pixel, and the buffers of the same
-//! trace for the visitor's GPU, by the number library and in the adapter's own floats.
+//! trace for the visitor's GPU, which repeats it with the number library and in its own floats.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,7 +27,7 @@ const SINGLE: &str = "e8m23";
 #[derive(Debug, Serialize)]
 pub(super) struct PagePrograms {
     side: u32,
-    /// Text that runs programs by the number library, and in the adapter's own floats.
+    /// Shader text that runs programs with the number library, and in the adapter's own floats.
     shaders: [String; 2],
     entry: &'static str,
     /// Sizes of a record's header and of a step, in words; first word of a record with a fragment, and of a record to

@@ -21,7 +21,7 @@ pub struct PictureInput {
 /// Options of the comparison. Without bounds, the pictures must be equal.
 #[derive(Clone, Debug, clap::Args)]
 pub struct DifferenceOptions {
-    /// Compare only this channel; may be given several times [default: all, which both pictures must have]
+    /// Compare only this channel; may be given several times [default: all channels, the same in both pictures]
     #[arg(long = "channel", value_name = "NAME")]
     pub channels: Vec<String>,
 

@@ -10,8 +10,8 @@ use crate::report::words::counted;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, Verdict, false_color};
 use crate::study::{ProgressFn, Study, StudyError};
 
-const FLIP: &str = "FLIP is the difference seen when flipping between the two pictures: 0 none, 1 the largest. SSIM \
-    compares the structure of the luma in windows of 11 x 11 pixels: 1 means equal.";
+const FLIP: &str = "FLIP is the difference seen when flipping between the two pictures: 0 means none, 1 the largest. \
+    SSIM compares the structure of the luma in windows of 11 x 11 pixels: 1 means equal.";
 
 impl Study for PictureDifference {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
@@ -85,9 +85,10 @@ fn table(channels: &[ChannelDifference]) -> Table {
 fn add_metrics(found: &mut Findings, study: &PictureDifference, perceptual: &PerceptualDifference) {
     let (flip, ppd) = (&perceptual.flip, shown(study.options.pixels_per_degree(), Quantity::Measured));
     let [mean, maximum] = [flip.mean, flip.maximum].map(|value| shown(value, Quantity::Error));
-    let similarity = perceptual
-        .ssim
-        .map_or("none: smaller than a window of 11x11".to_owned(), |ssim| shown(ssim, Quantity::Measured));
+    let similarity =
+        perceptual.ssim.map_or("not computed (the pictures are smaller than a window of 11x11)".to_owned(), |ssim| {
+            shown(ssim, Quantity::Measured)
+        });
     let line = format!("SSIM {similarity}; FLIP mean {mean}, largest {maximum}, at {ppd} pixels per degree");
     found.print(line.clone());
     found.paragraph(format!("{line}. {FLIP}"));

@@ -28,7 +28,7 @@ pub struct CaseSubject {
     executor: Executor,
     measures: Vec<PrecisionMeasure>,
     exact: Vec<DrawnTarget>,
-    /// Another case with the same pixel program, which tests the mixed formats that were searched on this one.
+    /// Another case with the same pixel program, which tests the mixed formats that were searched on this case.
     held_back: Option<Box<CaseSubject>>,
 }
 
@@ -57,7 +57,7 @@ impl CaseSubject {
                 .with_help(help)
         };
         if other.setup.pixel.digest() != self.setup.pixel.digest() {
-            let help = "name a case with other textures, constants or geometry";
+            let help = "give a case with other textures, constants or geometry";
             return Err(refused("the same pixel program, found another program", help));
         }
         if let Some(missing) = self.measures.iter().find(|measure| !other.measures.contains(measure)) {
@@ -146,7 +146,7 @@ impl PrecisionSubject for CaseSubject {
     fn notes(&self) -> Vec<String> {
         let all = || self.exact.iter().flat_map(|target| &target.values);
         let not_finite = all().filter(|value| !value.is_finite()).count();
-        let note = || format!("Of {} channels of the exact run {not_finite} are infinite or NaN.", all().count());
+        let note = || format!("Of {} channels of the exact run, {not_finite} are infinite or NaN.", all().count());
         let warnings = self.setup.warnings.iter().map(|warning| format!("Warning: {warning}."));
         (not_finite > 0).then(note).into_iter().chain(warnings).collect()
     }

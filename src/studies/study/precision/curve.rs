@@ -152,8 +152,8 @@ impl Curve {
     }
 }
 
-/// Fewest integer bits with which a 31-bit format meets the goal, plus [`SPARE`]; if none does, the number with the
-/// best value.
+/// Fewest integer bits with which a 31-bit format meets the goal, plus [`SPARE`]; if no number does, the number with
+/// the best value.
 fn enough_integer_bits<E>(goal: &Goal, value: &mut impl FnMut(FormatBits) -> Result<f64, E>) -> Result<u8, E> {
     let family = FormatFamily::Fixed;
     let mut best = (0, f64::INFINITY);

@@ -8,7 +8,7 @@ const WRONG: f64 = 0.01;
 
 pub(super) const LARGEST_CODES: PrecisionMeasure = PrecisionMeasure {
     name: "largest_codes",
-    meaning: "largest difference of a stored code, of all integer channels; of systems, in 255ths of white",
+    meaning: "largest difference of a stored code, over all integer channels; for systems, in steps of 1/255",
 };
 
 /// Measures of [`ValueErrors`], in the order of its values.
@@ -40,7 +40,7 @@ pub(super) struct ValueErrors {
     /// Per pixel, `true` if a channel is wrong.
     wrong: Vec<bool>,
     /// Indices of the target and of the value with the largest error, the first one on a tie, and that error: in codes
-    /// if the channel has any, otherwise relative.
+    /// if the channel has codes, otherwise relative.
     pub(super) worst: Option<([usize; 2], f64)>,
 }
 

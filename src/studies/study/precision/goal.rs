@@ -78,7 +78,7 @@ impl Goal {
         Series { label: format!("goal: {}", self.bound_text()), points }
     }
 
-    /// The goal `given`, or else the default. Fails if the given one is for a measure that is none of `names`.
+    /// The goal `given`, or else the default. Fails if the given goal is for a measure other than `names`.
     pub(super) fn chosen(given: Option<&Self>, names: &[&str], default: Self) -> Result<Self, StudyError> {
         let Some(goal) = given else { return Ok(default) };
         if names.contains(&goal.measure.as_str()) {

@@ -149,7 +149,7 @@ fn exact_run(runs: &mut Runs<'_>) -> Result<f64, RunError> {
 }
 
 impl FamilyOutcome {
-    /// Without findings.
+    /// Creates the outcome of a family that has no findings yet.
     fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
         Self { curve, blamed: None, needs, mixed: None, held_back: None }

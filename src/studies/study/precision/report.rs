@@ -52,7 +52,9 @@ fn conclude(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
     found.conclusion(format!("Goal: {goal}; {measure} is {} in the exact run{given}.", number(outcome.exact)));
     let rules = &runs.subject.profile().rules;
     if rules.accumulator.is_some() || rules.storage.iter().next().is_some() {
-        found.conclusion("Only instruction formats are searched, not the device's formats of storages and sums.");
+        found.conclusion(
+            "Only instruction formats are searched, not the device's formats of stored values and of sums.",
+        );
     }
     for family in &outcome.families {
         let name = family.curve.family.name();
@@ -85,21 +87,24 @@ fn conclude(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
     if let Some((curve, mixed)) = outcome.cheapest() {
         let of = curve.minimum.map_or(0, |minimum| minimum.width() * mixed.formats.len() as u32);
         found.conclusion(format!(
-            "With a {} format per instruction: {} bits in place of {}{}.",
+            "With one {} format per instruction, the instructions have {} bits in total instead of {}{}.",
             curve.family.name(),
             count(mixed.width().into()),
             count(of.into()),
             if mixed.is_minimal {
                 "; with one bit less in any instruction, the goal is missed"
             } else {
-                ", the best so far"
+                "; this is the best so far"
             },
         ));
     }
     let blamed = outcome.families.iter().find_map(|family| family.most_blamed().filter(|(_, share)| *share > 0.0));
     if let Some((place, share)) = blamed {
         let SourceLine { file, line, text, .. } = tables::line(place, runs);
-        found.conclusion(format!("Most to blame: {file}:{line}: `{text}`, {} of the loss alone.", percent(share)));
+        found.conclusion(format!(
+            "Most to blame: {file}:{line}: `{text}`, which alone causes {} of the loss.",
+            percent(share)
+        ));
     }
     if outcome.budget_spent {
         let made = counted(runs.made, "run", "runs");

@@ -87,7 +87,7 @@ pub trait PrecisionSubject {
         Ok(false)
     }
 
-    /// Measures on held-back input; `None` if there is none. Fails if the device cannot run the programs.
+    /// Measures on held-back input; `None` without such input. Fails if the device cannot run the programs.
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
         let _ = profile;
         Ok(None)

@@ -102,9 +102,9 @@ pub(super) fn half(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs
     found.heading("Half precision");
     found.explained_table(
         kept(table, "half"),
-        "Each expression computed in f16 while all others are exact, and whether it may be f16 together with all others \
-         that say yes. Found by adding one after the other, the harmless first. The last column is the pixel with the \
-         largest error of the run that refuted it.",
+        "alone is the value of the goal's measure with only this expression in f16. All expressions with `yes` may be \
+         f16 together: they were added one after the other, the least harmful first. The last column is the pixel with \
+         the largest error in the run that refuted the expression.",
     );
     Ok(())
 }
@@ -139,9 +139,10 @@ pub(super) fn family(found: &mut Findings, family: &FamilyOutcome, runs: &Runs<'
     if let Some(blamed) = family.blamed {
         let sum: f64 = family.needs.iter().filter_map(|needs| needs.blame).fold(0.0, |sum, share| sum + share);
         found.paragraph(format!(
-            "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
-             Blame is the share of the loss with all instructions in {} that remains if only this one is; regained is \
-             the share that disappears if only this one is exact. The shares of blame sum to {}: {}.",
+            "alone is the fewest {digits} with all other instructions exact; others_at_minimum, with all others in \
+             {minimum}. blame and regained are shares of the loss with all instructions in {}: blame remains if only \
+             this instruction is in that format, regained disappears if only this one is exact. The shares of blame \
+             sum to {}: {}.",
             blamed,
             percent(sum),
             additivity(sum),
@@ -158,8 +159,7 @@ pub(super) fn family(found: &mut Findings, family: &FamilyOutcome, runs: &Runs<'
     let measure = runs.goal.measure.as_str();
     if let Some(value) = family.held_back {
         let (met, value) = (meets(value, runs), number(value));
-        found
-            .paragraph(format!("On input that was held back from the search {measure} is {value}: it {met} the goal."));
+        found.paragraph(format!("On input held back from the search, {measure} is {value}, which {met} the goal."));
     }
     let columns = ["line", "instruction", "format", measure, "met", "largest error at column, row"];
     let mut table = Table::new("One bit less", &columns);
@@ -206,7 +206,7 @@ pub(super) fn switches(found: &mut Findings, outcome: &PrecisionOutcome) {
     found.heading("Open switches");
     found.explained_table(
         kept(table, "switches").folded(&firsts, named, (["value", "values"], "the same")),
-        "Each value of each switch that has several, one at a time. The minimum has the exponent or integer bits of \
-         the curve; the reference is the exact run of the device as given.",
+        "Each row changes one switch that has several values. minimum has the exponent or integer bits of the curve; \
+         the reference is the exact run of the device as given.",
     );
 }

@@ -67,20 +67,26 @@ impl LitView {
         Ok((found, exposure))
     }
 
-    /// Adds the picture from uncompressed transfer, and the difference of `drawn` from it, named by `less`. Returns the
-    /// difference of each pixel's mean channel, and the largest.
+    /// Adds the picture from uncompressed transfer, and the difference of `drawn` from it, named by `minus`. Returns
+    /// the difference of each pixel's mean channel, and the largest.
     pub(super) fn against_original(
         &self,
         drawn: &[[f64; 3]],
         original: &[[f64; 3]],
         exposure: f64,
-        less: &str,
+        minus: &str,
     ) -> Result<(Vec<NamedPicture>, Vec<f64>, f64), InputError> {
         let (difference, largest) = difference_of_means(drawn, original);
         let shown_original = self.picture(original).display(exposure)?;
         let mut pictures = vec![NamedPicture::new("original", shown_original, "without compression")];
         if largest > 0.0 {
-            pictures.push(signed_picture("difference", &format!("{less}:"), self.camera.width(), &difference, largest));
+            pictures.push(signed_picture(
+                "difference",
+                &format!("{minus}:"),
+                self.camera.width(),
+                &difference,
+                largest,
+            ));
         }
         Ok((pictures, difference, largest))
     }

@@ -103,7 +103,7 @@ impl Precomputation<'_> {
         self.run_by(&mut tracer, progress)
     }
 
-    /// As [`Self::run`], by a caster of the mesh that sees both sides.
+    /// Like [`Self::run`], with a caster of the mesh that sees both sides.
     pub fn run_by(&self, caster: &mut dyn Caster, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
         let rule = DirectionRule::spread(self.degree, EXACT_DEGREE);
         let responses = self.channels.iter().map(|(channel, brdfs)| self.responses(&rule, *channel, brdfs));

@@ -82,7 +82,7 @@ impl Rendering {
     ) -> Result<(), StudyError> {
         let whole = self.colors(seen, Some(original))?;
         let (mut pictures, difference, largest) =
-            self.view.against_original(drawn, &whole, exposure, "compressed less original")?;
+            self.view.against_original(drawn, &whole, exposure, "compressed minus original")?;
         let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
         let ratio = (squares(&mut difference.iter().copied()) / squares(&mut whole.iter().map(mean))).sqrt();
         let of_picture = "root mean square difference, relative to the picture's root mean square (%)";

@@ -56,7 +56,7 @@ fn speed(rows: &[MethodRow]) -> Option<String> {
         format!("{} meets the tolerance after {}.", first.label, needs(first))
     } else {
         let (fast, slow) = (needs(first), needs(last));
-        format!("{} meets the tolerance first, after {fast}; {} last, after {slow}.", first.label, last.label)
+        format!("{} meets the tolerance first, after {fast}, and {} last, after {slow}.", first.label, last.label)
     })
 }
 

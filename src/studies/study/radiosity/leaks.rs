@@ -14,12 +14,12 @@ use crate::study::caster::{CastRecord, CasterChoice};
 #[derive(Clone, Debug)]
 pub(super) struct LeakRow {
     pub(super) cast: CastRecord,
-    /// Sums of absolute differences of a patch's form factors: the fraction of its light that goes elsewhere.
+    /// Sums of the absolute differences of a patch's form factors; light that moves between patches counts twice.
     pub(super) factors: ErrorSums,
     pub(super) error: SolutionError,
 }
 
-/// One row per Ray Engine caster; `first` holds the first caster's form factors. Empty if that is the host.
+/// One row per Ray Engine caster; `first` holds the first caster's form factors. Empty if the first caster is the host.
 pub(super) fn rows(
     parameters: &Parameters,
     patches: &Patches,
@@ -49,11 +49,12 @@ pub(super) fn rows(
     Ok(rows)
 }
 
-const EXPLAINED: &str = "Each row computes the form factors anew with rays of the Ray Engine on that card or in that \
-    format. differing: rays that hit another triangle than in exact arithmetic, or none. factors: the share of a \
-    patch's light that goes elsewhere than with the host's rays, the mean and the largest over the patches. The errors \
-    are those of the direct solution, against the room of the host's rays: the largest relative to the brightest \
-    patch, the largest of a patch that does not emit, and the signed mean over these.";
+const EXPLAINED: &str = "Each row recomputes the form factors with rays of the Ray Engine, on that card or in that \
+    format. differing counts rays whose hit differs from the exact first hit: in the triangle, or in whether there is \
+    one. factors is the sum of the absolute changes of a patch's form factors against those of the host's rays: its \
+    mean over the patches, and the largest. The last three columns are errors of the direct solution, against the \
+    direct solution with the host's form factors: the largest error relative to the brightest patch; the largest \
+    relative error of a patch that does not emit; and the signed mean of these relative errors.";
 
 pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {
     let columns = "rays_by rays on_card_% differing differing_% factors_% factors_largest_% largest_error \
@@ -78,7 +79,7 @@ pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {
         return;
     };
     found.conclusion(format!(
-        "Of the rays that {} casts for form factors {} from exact arithmetic; a patch is off by up to {}.",
+        "Of the rays that {} casts for form factors, {} from exact arithmetic; a patch is off by up to {}.",
         worst.cast.label,
         counted(worst.cast.differing.unwrap_or(0), "differs", "differ"),
         percent(worst.error.relative_unlit),

@@ -45,7 +45,7 @@ impl SolveMethod {
     /// Direct solution on the host.
     pub const DIRECT: Self = Self::Host(Solver::Direct);
 
-    /// The method's layout and format on a card, if it runs on one.
+    /// The method's layout and format, if it runs on a card.
     pub(super) fn on_card(&self) -> Option<CardMethod> {
         if let Self::Card(how) = self { Some(*how) } else { None }
     }

@@ -25,7 +25,7 @@ pub struct Parameters {
     pub scene: Scene,
     /// Methods; each has a row in the table.
     pub methods: Vec<SolveMethod>,
-    /// Card for the methods that run on one.
+    /// The card of the methods that run on a card.
     pub profile: Profile,
     /// Switches of the card that were set.
     pub switches: Vec<(String, String)>,
@@ -173,13 +173,13 @@ impl RadiosityOptions {
         let on_card = solvers.contains(&SolverChoice::Card);
         let iterates = solvers.iter().any(|solver| *solver != SolverChoice::Host(Solver::Direct));
         let idle = [
-            (of_the_card && !on_card, "`--packing` and `--storage` are for the card", "leave them out"),
-            (!self.frames.is_empty() && !on_card, "`--picture-after` shows the iterations of the card", "leave it out"),
-            (!self.sweep.is_empty() && !on_card, "`--sweep-patches` turns the switches of the card", "leave it out"),
-            (stops && !iterates, "`--tolerance` and `--iterations` are for solvers that iterate", "leave them out"),
+            (of_the_card && !on_card, "`--packing` and `--storage` are for the card", "these options"),
+            (!self.frames.is_empty() && !on_card, "`--picture-after` shows the iterations of the card", "the option"),
+            (!self.sweep.is_empty() && !on_card, "`--sweep-patches` changes the switches of the card", "the option"),
+            (stops && !iterates, "`--tolerance` and `--iterations` are for solvers that iterate", "these options"),
         ];
-        if let Some((_, what, or)) = idle.into_iter().find(|(idle, ..)| *idle) {
-            return Err(StudyError::usage(what, format!("add `--solver card`, or {or}")));
+        if let Some((_, what, options)) = idle.into_iter().find(|(idle, ..)| *idle) {
+            return Err(StudyError::usage(what, format!("remove {options}, or add `--solver card`")));
         }
         let (packings, storages) = (or(&self.packings, &[Packing::Rgb]), or(&self.storages, &[Storage::Fp32]));
         let pairs = packings.iter().flat_map(|&packing| storages.iter().map(move |&storage| (packing, storage)));

@@ -20,11 +20,11 @@ pub(super) struct MethodRow {
     /// Final residual relative to the emittance, both in Euclidean norms.
     pub(super) residual: f64,
     pub(super) stopped: StopReason,
-    /// Relative to the emitted power; the maximum over the channels.
+    /// Error of the energy balance, relative to the emitted power; the maximum over the channels.
     pub(super) energy_balance_error: f64,
     /// Error compared with the direct solution, if that was requested.
     pub(super) error: Option<SolutionError>,
-    /// `None` on the host.
+    /// `None` for solvers of the host.
     pub(super) card: Option<CardFacts>,
     pub(super) pictures: Pictures,
 }

@@ -44,8 +44,9 @@ pub(super) fn findings(parameters: &Parameters, outcome: &RadiosityOutcome) -> R
     }
     found.pictures(lead);
     found.paragraph(format!(
-        "{}, solved as by the fragment programs of Carr, Hall and Hart (2003, section 3), and by solvers of the host. \
-         The emulated {} draws pictures from its radiosity texture, times {}, with the sRGB curve.",
+        "The radiosities of {} are computed as by the fragment programs of Carr, Hall and Hart (2003, section 3), and \
+         by solvers of the host. The emulated {} draws pictures from its radiosity texture, multiplied by {}, with the \
+         sRGB curve.",
         counted(outcome.patches.list().len() as u64, "patch", "patches"),
         parameters.profile.title,
         Cell::ratio(outcome.exposure).text(),
@@ -89,7 +90,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: &RadiosityOutcome) -> R
 }
 
 const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures; the \
-    bar below each picture shows it. docs/studies/radiosity.md explains why half precision darkens a room.";
+    bar below each picture shows the scale. docs/studies/radiosity.md explains why half precision darkens a room.";
 
 const ENDS: &str = "An iteration in finite precision that never meets its tolerance repeats an earlier state, and \
     cycles from there on. States are compared bit for bit; the period is the smallest.";

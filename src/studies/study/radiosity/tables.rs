@@ -24,8 +24,8 @@ pub(super) fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table
 pub(super) fn methods(outcome: &RadiosityOutcome) -> Table {
     let columns = "way iterations stopped_by residual light_unaccounted largest_error largest_relative mean_relative";
     let mut table = Table::of(
-        "Methods; errors against the direct solution: relative to the brightest patch, to each patch, \
-         and in the signed mean",
+        "Methods, and their errors against the direct solution: the largest relative to the brightest patch, the \
+         largest relative to each patch, and the signed mean of the relative errors",
         columns,
     );
     for row in &outcome.rows {

@@ -33,7 +33,7 @@ impl GatherError {
     }
 }
 
-/// Radiosities of all texels, row by row. A channel that equals an earlier one has its sums.
+/// Radiosities of all texels, row by row. A channel that equals an earlier channel reuses its sums.
 pub(super) fn radiosity(
     parameters: &Parameters,
     atlas: &Atlas,

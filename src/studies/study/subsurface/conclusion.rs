@@ -20,10 +20,10 @@ pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &
     let (good, bad): (Vec<_>, Vec<_>) = errors.partition(|error| error.rms <= ENOUGH);
     found.tally(
         good.len() as u64,
-        ["way within 1 % of all pairs", "variants within 1 % of the sum over all pairs"],
+        ["variant within 1 % of the sum over all pairs", "variants within 1 % of the sum over all pairs"],
         Tone::Good,
     );
-    found.tally(bad.len() as u64, ["way beyond 1 %", "ways beyond 1 %"], Tone::Bad);
+    found.tally(bad.len() as u64, ["variant beyond 1 %", "variants beyond 1 %"], Tone::Bad);
 }
 
 fn accuracy(rows: &[WayRow]) -> Option<String> {
@@ -33,7 +33,7 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
     let (least, most) = (percent(least), percent(most));
     Some(if best.label == worst.label {
         format!(
-            "{} differs from all pairs by {least} (root mean square); its links alone account for {}.",
+            "{} differs from the sum over all pairs by an rms error of {least}; its links alone account for {}.",
             best.label,
             percent(best.links_error.map_or(0.0, |error| error.rms))
         )
@@ -49,7 +49,7 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
 type ErrorOf = fn((&AngleBin, &AngleBin)) -> f64;
 
 /// Compares fixed and adaptive links by angle from the light, at the largest number of links that both have, and says
-/// which choice is nearer to all pairs.
+/// which choice is nearer to the sum over all pairs.
 fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let count = |row: &WayRow| row.way.choice.per_texel(parameters.options.side);
     let is_fixed = |row: &WayRow| matches!(row.way.choice, LinkChoice::Fixed { .. });
@@ -69,15 +69,15 @@ fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let places = [better([errors[1], errors[0]]), better(errors)];
     let places = ["adaptive", "fixed"].into_iter().zip(places).filter(|(_, places)| !places.is_empty());
     let places: Vec<String> =
-        places.map(|(choice, places)| format!("{choice} ones at {} degrees", listed(&places))).collect();
+        places.map(|(choice, places)| format!("{choice} links at {} degrees", listed(&places))).collect();
     let (last, of_adaptive) = bins().next_back()?;
     let signed = |error: BinError| format!("{}{}", if error.mean > 0.0 { "+" } else { "" }, percent(error.mean));
     let [from, to] = last.degrees;
     Some(format!(
-        "With {} links per texel, by the angle between normals and the light, {} are nearer to all pairs; at {from} to \
-         {to} degrees the mean of B is off by {} with adaptive links and by {} with fixed links.",
+        "With {} links per texel, by the angle between normal and light, {} are nearer to the sum over all pairs; at \
+         {from} to {to} degrees, the mean of B is off by {} with adaptive links and by {} with fixed links.",
         count(fixed),
-        places.join(", "),
+        places.join(" and "),
         signed(of_adaptive.links),
         signed(last.links),
     ))

@@ -142,24 +142,24 @@ pub struct SubsurfaceOptions {
 /// Values of `--choice`: layouts of links.
 fn choices() -> OneOf<LinkLayout> {
     let fixed = ("fixed", "All clusters of one level: 1, 4, 16, 64, ... links", LinkLayout::Fixed);
-    let help = "Per texel, the cluster with the highest factor gives way to its four children";
+    let help = "Per texel, the cluster with the highest factor is repeatedly replaced by its four children";
     one_of([fixed, ("adaptive", help, LinkLayout::Adaptive)])
 }
 
 /// Values of `--channels`: `true` for a factor per channel, `false` for one factor.
 fn rgb() -> OneOf<bool> {
-    one_of([("scalar", "One, that of green", false), ("rgb", "Red, green and blue", true)])
+    one_of([("scalar", "One factor, that of green", false), ("rgb", "Red, green and blue", true)])
 }
 
 fn yes_or_no() -> OneOf<bool> {
-    one_of([("yes", "Do it", true), ("no", "Do not", false)])
+    one_of([("yes", "Gather over all pairs", true), ("no", "Leave them out", false)])
 }
 
 impl SubsurfaceOptions {
     /// Checks the options that do not depend on the medium. Fails if one is out of its range.
     pub fn check(&self) -> Result<(), StudyError> {
         if self.all_pairs == Some(true) && self.side > MAX_ALL_PAIRS_SIDE {
-            let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
+            let help = format!("remove `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
             return Err(StudyError::usage(format!("all pairs of {0} x {0} texels would take hours", self.side), help));
         }
         Ok(())

@@ -23,7 +23,7 @@ pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, Stu
     let (width, height) = together.dimensions();
     let direct = Picture::rgb(width, height, &direct).display(exposure)?;
     Ok(vec![
-        NamedPicture::new("direct", direct, "without subsurface scattering: the difference of the other two"),
+        NamedPicture::new("direct", direct, "without subsurface scattering: the difference of the other two pictures"),
         NamedPicture::new(
             "whole",
             row.picture.display(exposure)?,

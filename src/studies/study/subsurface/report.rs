@@ -25,8 +25,8 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
         found.pictures(pictures::lead(row, exposure)?);
     }
     found.paragraph(format!(
-        "{}, {}, of {}, by the three passes of Carr, Hall and Hart (2003, section 4) on the emulated {}. Pictures are \
-         radiance times {}, with the sRGB curve.",
+        "The model is {}, {}, made of {}. The three passes of Carr, Hall and Hart (2003, section 4) run on the \
+         emulated {}. Pictures are radiance multiplied by {}, with the sRGB curve.",
         parameters.model,
         counted(parameters.mesh.len() as u64, "face", "faces"),
         parameters.material.name,
@@ -54,16 +54,19 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
 const MEDIUM: &str = "The diffusion length is 1 over the effective transport coefficient sigma_tr; total_R_d is the \
     share of light that a flat half space reflects.";
 
-const ERRORS: &str = "links: the host's double-precision sum over the links, against the sum over all pairs of texels; plain means: the same with \
-    level means that weight texels equally, like mipmaps of plain irradiance; card: the card against the host's sum over the same links; all: the \
-    card against all pairs. Without all pairs (`--all-pairs no`, and the default of atlases above ";
+const ERRORS: &str = "Columns that begin with links compare the host's double-precision sum over the links with its \
+    sum over all pairs of texels; plain_means does the same with level means that weight texels equally, as mipmaps \
+    of plain irradiance would. Columns that begin with card compare the card with the host's sum over the same links, \
+    and columns that begin with all compare it with the sum over all pairs. Without all pairs (`--all-pairs no`, and \
+    the default of atlases above ";
 
 const ANGLES: &str = "The lit side of a model dominates a root mean square over the whole model. Here every bin of angles is relative to its own \
     light: at 0 degrees the surface faces the light; at 180 degrees it faces away, and all light arrives from afar.";
 
-const STORAGE: &str = "Fixed links store places in constants and four factors per texel, adaptive links one texel each with place, factor and level. \
-    Factors lost to 0 are below the format's smallest number. Rounded places are coordinates of adaptive links that the format cannot represent; \
-    they read a neighbour's light. Instructions count all programs of pass 2, samplers the largest program.";
+const STORAGE: &str = "Fixed links store places in constants and four factors per texel; an adaptive link is one \
+    texel with place, factor and level. lost_to_0 counts factors below the format's smallest number. places_rounded \
+    counts coordinates of adaptive links that the format cannot represent; such links read a neighbor's light. \
+    instructions counts all programs of pass 2, samplers only the largest program.";
 
 const TIMES: &str = "Times are modelled, not measured; the model has no constant from this paper.";
 
@@ -76,9 +79,10 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
     }
     let numbers = || lines.iter().flat_map(|line| &line.points).map(|point| point.0);
     let (least, most) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max));
-    let labels = ["Error of B against all pairs", "links per texel", "root mean square error, %"];
+    let labels = ["Error of B against the sum over all pairs", "links per texel", "root mean square error, %"];
     let scale = Scale::fitting(numbers());
-    (most > least).then(|| NamedChart::logarithmic("error", labels, (scale, lines), "Links and card together."))
+    (most > least)
+        .then(|| NamedChart::logarithmic("error", labels, (scale, lines), "The error of links and card together."))
 }
 
 /// Name of a row's way of gathering, without its number of links.

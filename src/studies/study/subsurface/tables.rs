@@ -49,7 +49,8 @@ pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
 
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "Ways of gathering; errors of B: root mean square by area and maximum, relative to B; seams: roughness of errors among neighbouring texels",
+        "Ways of gathering, with errors relative to B: root mean square by area, maximum, and roughness among \
+         neighboring texels (seams)",
         "way links_rms_% links_largest_% links_seams_% plain_means_rms_% card_rms_% card_largest_% all_rms_% all_largest_%",
     );
     let rms = |error: GatherError| Cell::percent(100.0 * error.rms);
@@ -89,7 +90,7 @@ pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
 
 pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "Card resources; reads and instructions per texel of pass 2",
+        "Card resources; reads and instructions are per texel of pass 2",
         "way link_MB memory_MB passes link_reads map_reads instructions samplers factors lost_to_0 denormal places_rounded map_saturated",
     );
     for row in &outcome.rows {

@@ -52,7 +52,7 @@ pub(super) struct WayRow {
     pub(super) lost: LostFactors,
     /// Number of texel channels of the map at its largest value.
     pub(super) saturated: usize,
-    /// The links' own error: the host's sum over them compared with all pairs.
+    /// The links' own error: the host's sum over the links compared with its sum over all pairs.
     pub(super) links_error: Option<GatherError>,
     /// Roughness of the errors among neighboring texels, relative to B.
     pub(super) seams: Option<f64>,
@@ -60,7 +60,7 @@ pub(super) struct WayRow {
     pub(super) plain_error: Option<GatherError>,
     /// The card's own error: compared with the host's sum over the same links.
     pub(super) card_error: GatherError,
-    /// Total error: the card compared with all pairs.
+    /// Total error: the card compared with the host's sum over all pairs.
     pub(super) error: Option<GatherError>,
     /// Errors by angle from the light; empty without all pairs, or unless the only light is a single directional one.
     pub(super) angles: Vec<AngleBin>,

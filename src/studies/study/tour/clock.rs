@@ -45,7 +45,8 @@ impl Clock {
     pub(super) fn conclude(&self, found: &mut Findings) {
         let rays: Picoseconds = self.0.iter().filter(|step| step.casts_rays).map(|step| step.time).sum();
         found.conclusion(format!(
-            "The cards take {} s (modelled) for the room and everything in it; {} of it for the Ray Engine's passes.",
+            "The cards take {} s (modelled) for the room and everything in it; {} of this time is for the Ray Engine's \
+             passes.",
             shown(self.total(), Quantity::Measured),
             percent(rays.seconds() / self.total()),
         ));
@@ -79,5 +80,6 @@ impl Clock {
     }
 }
 
-const EXPLAINED: &str = "Modelled by the pipeline model of each card, one step after the other. Host work is counted only for the bunny's frames: \
-    tests of rays on the host, clusters and links take no time here. timeline.json is the same for https://ui.perfetto.dev or chrome://tracing.";
+const EXPLAINED: &str = "The times come from the pipeline model of each card; the steps run one after the other. Host \
+    work is counted only for the bunny's frames: tests of rays on the host, clusters and links take no time here. \
+    timeline.json is the same for https://ui.perfetto.dev or chrome://tracing.";

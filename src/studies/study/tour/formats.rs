@@ -47,7 +47,7 @@ pub(super) struct FormatRow {
     by_sums: Option<SolutionError>,
     /// Error of the bunny's coefficients by these rays: relative RMS of the differences.
     transfer: f64,
-    /// RMS errors, in 255ths, of pixels that show the bunny and the statue, compared with fp32.
+    /// RMS errors, in steps of 1/255, of pixels that show the bunny and the statue, compared with fp32.
     pictures: [Option<f64>; 2],
 }
 
@@ -109,7 +109,7 @@ fn ran<T>(result: Result<T, StudyError>) -> Result<Option<T>, StudyError> {
     }
 }
 
-/// Root mean square error of the pixels that show a model, in 255ths.
+/// Root mean square error of the pixels that show a model, in steps of 1/255.
 fn error_255ths(shown: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> f64 {
     let mut sums = ErrorSums::default();
     for ((found, expected), _) in found.iter().zip(expected).zip(shown).filter(|(_, seen)| seen.is_some()) {
@@ -149,7 +149,9 @@ pub(super) fn report(rows: &[FormatRow], found: &mut Findings) {
     found.explained_table(FoundTable::from(table).csv("formats").field("formats"), EXPLAINED);
 }
 
-const EXPLAINED: &str = "Each system runs on an unlimited card that computes in the format. rays_differing: form-factor rays that hit another \
-    triangle than in exact arithmetic, or none. room_by_rays: mean error of non-emitting patches, with the form factors of these rays; room_by_sums: \
-    the same with the host's form factors and iterations in the format. transfer: relative root mean square error of the bunny's coefficients by \
-    these rays. The last two columns are root mean square errors of the models' pixels in 255ths of white, against fp32.";
+const EXPLAINED: &str = "Each system runs on an unlimited card that computes in the format. rays_differing counts \
+    form-factor rays that do not hit the triangle that they hit in exact arithmetic. room_by_rays is the mean error \
+    of non-emitting patches with the form factors of these rays; room_by_sums is the same error with the host's form \
+    factors and iterations in the format. transfer is the relative root mean square error of the bunny's coefficients \
+    by these rays. The last two columns are root mean square errors of the models' pixels against fp32, in steps of \
+    1/255.";

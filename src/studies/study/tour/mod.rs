@@ -39,7 +39,7 @@ const PATCHES: usize = 800;
 /// Number of faces of the room and of the bodies in it.
 const LEAST_PATCHES: usize = 200;
 /// The card that draws the bunny; the other one traces rays, solves radiosity and draws marble. Rays start so near to a
-/// surface that only single precision sees them leave it.
+/// surface that they leave it only in single precision.
 const RADEON: &str = "r300";
 const GEFORCE: &str = "nv35";
 
@@ -145,8 +145,9 @@ impl Study for Parameters {
     }
 }
 
-const ROOM: &str = "Matrix radiosity lights the room, clustered principal components the bunny, subsurface scattering \
-    the statue; each is drawn by its card.";
+const ROOM: &str = "Matrix radiosity lights the room, clustered principal components light the bunny, and subsurface \
+    scattering lights the statue. A Radeon 9700 draws the bunny; a GeForce FX 5900 Ultra draws the room and the \
+    statue.";
 
 const ABOUT: [&str; 4] = [
     "1. The Ray Engine on a GeForce FX 5900 Ultra casts the rays between the room's patches, and the card solves for radiosity. \

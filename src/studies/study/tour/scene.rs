@@ -41,7 +41,7 @@ impl TourScene {
     pub(super) fn new(size: Size, coarser: u32) -> Result<Self, InputError> {
         let empty = cornell(CornellBox { blocks: true, open: true });
         let camera = empty.views.first().expect("a view of the box").camera(size.width, size.height)?;
-        // Model, divisors of its detail and of its coarse body's, height, and the point on which it stands.
+        // Model, divisors of its detail and of its coarse body's detail, height, and the point on which it stands.
         let places = [
             (TransferModel::BiScaleBunny, [coarser, 10], 1.5, DVec3::new(1.86, 1.69, 1.651)),
             (TransferModel::BiScaleArmor, [2 * coarser, 16], 2.2, DVec3::new(4.2, 1.25, 0.001)),

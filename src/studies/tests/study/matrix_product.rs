@@ -53,8 +53,8 @@ fn what_is_not_finite_is_said() {
         }
         let reference = "the exact product of the quantised operands";
         let excluded = format!(
-            "1 of 1 elements are infinite or NaN by hopper_f16_f32 with one accumulator or in {reference}; the errors \
-             exclude them."
+            "1 of 1 elements are infinite or NaN in the result of hopper_f16_f32 with one accumulator or in \
+             {reference}; the errors exclude them."
         );
         assert_eq!(
             findings(&study).conclusions(),

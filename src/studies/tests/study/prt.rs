@@ -119,5 +119,5 @@ fn a_diffuse_sphere_is_lit_by_the_cosine() {
     for (x, z) in [(0.0, 0.0), (0.3, 0.2), (0.8, 0.1), (-0.5, 0.5)] {
         assert!((shown(x, z) / whole - lit(x, z)).abs() < 0.02, "{x}, {z}: {} {}", shown(x, z) / whole, lit(x, z));
     }
-    assert_eq!(shown(-1.0, 1.0), 0.0, "beside the sphere nothing is");
+    assert_eq!(shown(-1.0, 1.0), 0.0, "there is nothing beside the sphere");
 }

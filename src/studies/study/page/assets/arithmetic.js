@@ -104,7 +104,7 @@ const judgeCell = (row, column, found) => {
 
 const cellTable = () => {
   const table = at("cells");
-  add(table, "caption", {}, `Wrong results of ${count(SUM.sets)} operand sets per cell`);
+  add(table, "caption", {}, `Number of wrong results among the ${count(SUM.sets)} operand sets of each cell`);
   const head = add(add(table, "thead"), "tr");
   add(head, "th", { scope: "col" }, "operation");
   SUM.formats.forEach(({ name, title }) => {

@@ -109,8 +109,8 @@ const showPlayTrace = ({ trace, difference, other, drawn }) => {
     const different = differentPixels({ drawn, other }).length;
     words.push(`${counted(different, "pixel")} of the picture differ in ${other.format}.`);
     words.push(difference
-      ? `Here both first differ in ${difference.stage}${difference.line ? `, line ${difference.line}` : ""}: ${difference.values.map(({ name, left, right }) => `${name} is ${left} and ${right}`).join("; ")}.`
-      : "Here both write the same at every step.");
+      ? `At this pixel, they first differ in ${difference.stage}${difference.line ? `, line ${difference.line}` : ""}: ${difference.values.map(({ name, left, right }) => `${name} is ${left} and ${right}`).join("; ")}.`
+      : "At this pixel, both write the same values at every step.");
   }
   at("play-said").textContent = words.join(" ");
 };

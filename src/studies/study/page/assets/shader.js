@@ -103,7 +103,7 @@ const showShader = (found, { colors, errors }, format) => {
   const place = `(${worst % found.side}, ${Math.floor(worst / found.side)})`;
   const words = [];
   if (!ownShader.device) { words.push("This browser has no WebGPU here, so there is no picture of your GPU."); }
-  if (colors) { words.push(`${count(other)} of ${counted(found.side ** 2, "pixel")} have another color of 8 bits.`); }
+  if (colors) { words.push(`${count(other)} of ${counted(found.side ** 2, "pixel")} have a different 8-bit color.`); }
   if (colors && most > 0) {
     words.push(`The largest difference is ${most.toPrecision(3)} of 255, at pixel ${place}: the emulator has ${numbers(own, worst)}, your GPU ${numbers(colors, worst)}.`);
   }
@@ -169,7 +169,7 @@ const shaderControls = ({ examples, formats }) => {
   const example = choice(form, "shader-example", "Example", examples.map(({ title }) => title));
   const select = add(field(form, "Numbers"), "select", { id: "shader-format" });
   formats.forEach(([value, name]) => add(select, "option", { value }, name));
-  add(field(form, "or another"), "input", { id: "shader-other-format", size: 12, placeholder: "such as e6m9:rtz", spellcheck: false });
+  add(field(form, "or another format"), "input", { id: "shader-other-format", size: 12, placeholder: "such as e6m9:rtz", spellcheck: false });
   const exampleOf = (index) => ({ ...examples[index], uniforms: Object.fromEntries(examples[index].uniforms) });
   example.onchange = () => {
     chooseShader(exampleOf(Number(example.value)));

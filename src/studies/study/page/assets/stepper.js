@@ -112,11 +112,11 @@ const markLines = (variant, k) => {
     }
   });
   at("parting").disabled = parting < 0;
-  if (!variant.native) { return "The GPU's own floats are not there."; }
+  if (!variant.native) { return "There are no results of the GPU's own floats."; }
   if (parting < 0) { return "The GPU's own floats, rounded to the format, are the emulator's numbers at every step."; }
   const entry = variant.entries[parting];
   const where = entry.line === null ? `the input ${entry.names[0].split(".")[0]}` : `line ${entry.line + 1}`;
-  return `The GPU's own floats, rounded to the format, first part from the emulator at ${where}.`;
+  return `The GPU's own floats, rounded to the format, first differ from the emulator at ${where}.`;
 };
 
 const showStep = () => {

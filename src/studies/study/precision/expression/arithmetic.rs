@@ -30,7 +30,7 @@ pub(super) enum Arithmetic {
 }
 
 impl Arithmetic {
-    /// Layout, written as formats are written, such as `e8m23`.
+    /// Layout in the syntax of formats, such as `e8m23`.
     pub(super) fn layout(self) -> String {
         match self {
             Self::Double => "e11m52".to_owned(),

@@ -38,7 +38,7 @@ pub(super) fn bits(expression: &Expression, arithmetic: Arithmetic, samples: &Sa
     BitErrors { mean, standard_error, worst: errors.get(worst_input).copied().unwrap_or(f64::NAN), worst_input }
 }
 
-/// Value of a goal's measure in a format, over inputs sampled in another format and rounded to this one. With
+/// Value of a goal's measure in a format, over inputs sampled in another format and rounded to this format. With
 /// `ends_early`, stops as soon as the inputs so far miss the goal, whatever the others are.
 pub(super) fn relative_errors(
     expression: &Expression,

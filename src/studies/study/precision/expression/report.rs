@@ -12,13 +12,14 @@ use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::StudyError;
 
-const BITS: &str = "Bits of error are log2(1 + n), where n counts the format's numbers from the computed result to the correctly rounded one; for \
-    NaN, all bits of the format. The mean is over sampled inputs. Accuracy is the mean share of correct bits in the format. Inputs are numbers of \
-    the format itself. Discarded inputs meet the precondition but have no finite result in the format.";
+const BITS: &str = "Bits of error are log2(1 + n), where n counts the format's numbers from the computed result to \
+    the correctly rounded one; a NaN counts as all bits of the format. The mean is over sampled inputs. Accuracy is \
+    the mean share of correct bits in the format. Inputs are numbers of the format itself. Discarded inputs meet the \
+    precondition but have no finite result in the format.";
 
-const OPERATIONS: &str = "Local: bits of error of the operation on its exact operands, each rounded once. Alone: bits \
-    of error of the whole expression if only this operation rounds its result and all others are exact. Both are means \
-    over up to 256 inputs; operations that never err are left out.";
+const OPERATIONS: &str = "local_bits is the error of the operation on its exact operands, each rounded once. \
+    alone_bits is the error of the whole expression if only this operation rounds its result and all others are \
+    exact. Both are means over up to 256 inputs; the table leaves out operations that never err.";
 
 const RELATIVE: &str = "Relative errors are over single-precision inputs, which each format rounds first; the \
     reference is the exact result for the unrounded inputs.";
@@ -73,7 +74,7 @@ fn conclude(found: &mut Findings, expression: &Expression, outcome: &ExpressionO
     if let Some(most) = operations.iter().max_by(|a, b| a.alone.total_cmp(&b.alone)) {
         let (text, line, column) = expression.text(&expression.body.0[most.node]);
         found.conclusion(format!(
-            "Most to blame in {format}: `{text}` ({line}:{column}), {} bits of error alone.",
+            "Most to blame in {format}: `{text}` ({line}:{column}), which alone causes {} bits of error.",
             shown(most.alone, Quantity::Error)
         ));
     }
@@ -87,7 +88,7 @@ fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], stu
     let expressions = counted(studied.len() as u64, "expression", "expressions");
     for (at, family) in study.families.iter().enumerate() {
         let met = studied.iter().filter(|(_, outcome)| outcome.curves[at].minimum.is_some()).count();
-        found.conclusion(format!("In {met} of {expressions} some {} format meets {goal}.", family.name()));
+        found.conclusion(format!("For {met} of {expressions}, some {} format meets {goal}.", family.name()));
     }
     let names = studied.iter().take(1).flat_map(|(_, outcome)| outcome.formats.iter().map(|row| row.name));
     let smallest = study.families.iter().map(|family| format!("smallest_{}", family.name()));
@@ -103,7 +104,7 @@ fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], stu
     found.table(FoundTable::from(table).csv("expressions").field("expressions"));
 }
 
-/// An error; without inputs there is none.
+/// The cell of an error; empty if there were no inputs.
 fn error_cell(error: f64) -> Cell {
     if error.is_nan() { Cell::Empty } else { Cell::error(error) }
 }

@@ -90,7 +90,7 @@ impl ExpressionStudy {
     pub fn of_file(path: &Path, ranges: &[String]) -> Result<Self, StudyError> {
         let name = path.display().to_string();
         let unreadable = |found: String| {
-            StudyError::new("crossbar::expression::file", found).with_help("name a text file in FPCore, up to 1 MiB")
+            StudyError::new("crossbar::expression::file", found).with_help("give a text file in FPCore, up to 1 MiB")
         };
         let bytes = read_limited(path, MAX_BYTES)
             .map_err(|error| unreadable(format!("cannot read {name}")).with_source(error))?
@@ -224,12 +224,12 @@ fn without_inputs(expression: &Expression, arithmetic: Arithmetic, samples: &Sam
         }
     }
     if samples.discarded == 0 {
-        return failed("expected inputs that meet the precondition, found none", "give it wider bounds");
+        return failed("expected inputs that meet the precondition, found none", "give the precondition wider bounds");
     }
     let tried = counted(samples.discarded as u64, "input", "inputs");
     failed(
         &format!("expected a real, finite result in single precision, found none at {tried}"),
-        "it divides by zero, leaves a function's domain, is too large or compares equal numbers",
+        "the expression divides by zero, leaves a function's domain, is too large or compares equal numbers",
     )
 }
 

@@ -18,7 +18,7 @@ const LINKS: usize = 16;
 /// Millimeters per unit of the model.
 const SCALE: f64 = 10.0;
 
-/// Bunny of marble, lit from one side.
+/// Marble bunny, lit from one side.
 pub(super) fn marble() -> Result<System, StudyError> {
     let (mesh, choice) = (bunny(), LinkChoice::Adaptive { count: LINKS });
     let model = MarbleModel::new(&Atlas::new(&mesh, SIDE).map_err(no_atlas)?, SCALE, choice, false)?;

@@ -55,7 +55,7 @@ pub(in crate::study::prt) enum Transferred {
 }
 
 impl Transferred {
-    /// Converts to single precision, in which a card takes it.
+    /// Converts to single precision, the precision of a card's input.
     pub(in crate::study::prt) fn singles(self) -> TransferredRadiance {
         match self {
             Self::Coded(radiance) => radiance,

@@ -70,16 +70,16 @@ impl LitModel {
     ) -> Result<(), StudyError> {
         let picture = seen.colors(exact, [0.0; 3]);
         let (pictures, _, largest) =
-            self.view.against_original(drawn, &picture, exposure, "coded less uncompressed")?;
+            self.view.against_original(drawn, &picture, exposure, "coded minus uncompressed")?;
         let share = |a: &[[f64; 3]], b: &[[f64; 3]]| {
             let apart: f64 = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum();
             100.0 * (apart / b.iter().flatten().map(|value| value * value).sum::<f64>()).sqrt()
         };
         let pixels = share(drawn, &picture);
-        let of_pixels = "root mean square of pixels' differences, relative to the picture's (%)";
+        let of_pixels = "root mean square difference of pixels, relative to the picture's root mean square (%)";
         let table = Table::new("Coded against uncompressed", &["figure", "value"]).with([
             [of_pixels.into(), Cell::measured(pixels)],
-            ["the same of vertices (%)".into(), Cell::measured(share(of_vertex, exact))],
+            ["the same for vertices (%)".into(), Cell::measured(share(of_vertex, exact))],
             ["largest difference of a pixel (radiance)".into(), Cell::measured(largest)],
         ]);
         found.heading("Against uncompressed transfer");

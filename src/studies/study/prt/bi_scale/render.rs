@@ -26,7 +26,7 @@ impl Study for BiScaleRendering {
         let below = drawing.pixels.iter().flatten().filter(|pixel| pixel.shaded.view.z <= 0.0).count();
         if below > 0 {
             found.conclusion(format!(
-                "{below} of them see their surface from below the horizon of its interpolated normal, and take the \
+                "{below} of them see their surface from below the horizon of its interpolated normal, and use the \
                  views at the horizon."
             ));
         }
@@ -81,7 +81,7 @@ impl<'a> BiScaleDrawing<'a> {
             }
             if rendering.reference && patch.is_none() {
                 let what = format!("{name}: expected a patch of heights to cast rays at, found samples only");
-                let help = "name a patch, such as `mail`, in place of a file";
+                let help = "give a patch, such as `mail`, instead of a file";
                 return Err(StudyError::new("crossbar::prt::no_patch", what).with_help(help));
             }
         }

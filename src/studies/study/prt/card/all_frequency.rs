@@ -23,11 +23,12 @@ use crate::transfer::light::{HaarLight, LightTruncation};
 /// Numbers of bits of a code to try, if the file has more.
 const BITS: [u8; 5] = [8, 10, 12, 14, 15];
 
-const SWEEP: &str = "Each row changes one property of a picture with negligible rounding; errors are in 255ths of white. Representatives and weights \
-    are recoded from the file's bits, with double-precision sums, and compared with the file's own code; all other rows are drawn into floats and \
-    compared with double-precision products of the same numbers.";
-const TIME: &str = "Modelled, not measured: the pipeline model of the card, and a host whose speed follows from the \
-    frame rates of the paper's Table 1. Host and card work in parallel, frame after frame.";
+const SWEEP: &str = "Each row changes one property of a picture with negligible rounding; errors are in steps of \
+    1/255. Representatives and weights are recoded from the file's bits, with double-precision sums, and compared \
+    with the file's own code; all other rows are drawn into floats and compared with double-precision products of the \
+    same numbers.";
+const TIME: &str = "Times are modelled, not measured, by the pipeline model of the card, and for a host whose speed \
+    follows from the frame rates of the paper's Table 1. Host and card work in parallel, frame after frame.";
 
 /// A lit model with all-frequency transfer, and the card that draws it.
 #[derive(Debug)]

@@ -26,10 +26,12 @@ use crate::transfer::Vertices;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::light::DistantLight;
 
-const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in 255ths of white, against equation \
-    3 and light multiplied in double precision. 8-bit fractions are relative to the largest number.";
-const TIME: &str = "Modelled, not measured, by the pipeline model of the card, in which texture reads run at the full \
-    rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is reused.";
+const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in \
+    steps of 1/255, against equation 3 and light multiplied in double precision. 8-bit fractions are relative to the \
+    largest number.";
+const TIME: &str = "Times are modelled, not measured, by the pipeline model of the card, in which texture reads run \
+    at the full rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is \
+    reused.";
 
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
 /// Formats of fewer bits of textures and targets.
@@ -117,7 +119,7 @@ impl BiScaleOnCard {
         self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
 
-    /// Rejects biclusters of other vertices, directions or light.
+    /// Rejects biclusters that do not match the vertices, directions or light.
     fn check(&self) -> Result<(), StudyError> {
         let [rows, columns] = self.biclusters.matrix_size();
         let expected = self.vertices.len() * self.directions();
@@ -198,7 +200,7 @@ impl BiScaleOnCard {
         let Some((view, both)) = view.zip(card.modelled(&log, host_of_table_1())?) else { return Ok(()) };
         let [alone, together] = [view, both].map(|time| shown(time.per_second(), Quantity::Measured));
         found.conclusion(format!(
-            "{}: modelled {alone} frames per second when only the view changes, {together} when light changes too.",
+            "{}: {alone} frames per second (modelled) when only the view changes, {together} when light changes too.",
             card.profile.title
         ));
         let times = [

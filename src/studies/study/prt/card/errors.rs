@@ -13,13 +13,13 @@ pub(super) const STEPS: f64 = 255.0;
 /// Errors of the pixels that show the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelErrors {
-    /// RMS and largest difference of a channel, in 255ths of white; infinite if a pixel is not finite.
+    /// RMS and largest difference of a channel, in steps of 1/255; infinite if a pixel is not finite.
     pub off_255ths: [f64; 2],
-    /// Fraction of the pixels with a channel that is not finite, or whose error exceeds one 255th.
+    /// Fraction of the pixels with a channel that is not finite, or whose error exceeds 1/255.
     pub visible: f64,
     /// Number of pixels that are not finite where the expected ones are, or the reverse.
     pub not_finite: u64,
-    /// RMS over the finite pixels, in 255ths.
+    /// RMS over the finite pixels, in steps of 1/255.
     pub(super) finite_rms: f64,
 }
 
@@ -54,8 +54,8 @@ impl PixelErrors {
             count => format!(" {} not finite.", counted(count, "pixel is", "pixels are")),
         };
         format!(
-            "{card}: off by {rms} 255ths (root mean square; largest {largest}) of what the host computes in double \
-             precision from {from}; {} of the pixels by more than one.{not_finite}",
+            "{card}: off by {rms}/255 (root mean square; largest {largest}/255) from what the host computes in double \
+             precision from {from}; {} of the pixels are off by more than 1/255.{not_finite}",
             percent(self.visible)
         )
     }
@@ -70,9 +70,9 @@ pub(super) fn held(pixels: &[[f64; 3]], is_clamped: bool) -> Vec<[f64; 3]> {
 /// Axes whose rows are not single changes: the unchanged picture, and whole cards.
 const NOT_ALONE: [&str; 2] = ["none", "card"];
 
-const BLAME: &str = "Each row is the error of one step from light to picture, in 255ths of white: the picture against \
-    the same picture with that step exact. All rows but the card's are computed by the host in double precision, pixel \
-    by pixel of the card's raster, from what is interpolated between vertices.";
+const BLAME: &str = "Each row is the error of one step from light to picture, in steps of 1/255: the picture is \
+    compared with the same picture with that step exact. The host computes all rows except the card's, in double \
+    precision, at each pixel of the card's raster, from what is interpolated between vertices.";
 
 /// A variant of a picture, with its errors.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,10 +113,10 @@ pub(super) fn report_sweep(variants: &[PictureVariant], explained: &str, found: 
     found.conclusion(if hidden.is_empty() {
         "Every change of the sweep is visible.".to_owned()
     } else {
-        format!("Changes that are visible in no pixel, each alone: {}.", hidden.join("; "))
+        format!("Each of these changes, made alone, is not visible in any pixel: {}.", hidden.join("; "))
     });
     if let Some((name, rms)) = worst(alone().map(|variant| (name(variant), variant.errors))) {
-        found.conclusion(format!("The largest error is that of {name}: {rms} 255ths root mean square."));
+        found.conclusion(format!("The change with the largest error is {name}: {rms}/255 (root mean square)."));
     }
     found.heading("What shows");
     found.explained_table(FoundTable::from(variants_table(variants)).csv("precision").field("precision"), explained);
@@ -128,7 +128,7 @@ pub(super) fn report_blame(blames: &[(&'static str, PixelErrors)], found: &mut F
     let table = Table::of("Error of the picture by step", "step rms_255ths largest_255ths visible_%")
         .with(blames.iter().map(row));
     if let Some((step, rms)) = worst(blames.iter().copied()) {
-        found.conclusion(format!("The largest error is that of this step: {step}, {rms} 255ths root mean square."));
+        found.conclusion(format!("The step with the largest error is {step}: {rms}/255 (root mean square)."));
     }
     found.heading("Error by step");
     found.explained_table(FoundTable::from(table).csv("blame").field("blame"), BLAME);

@@ -85,9 +85,9 @@ impl CardSetting {
     ) -> Result<(), StudyError> {
         let Some(time) = self.modelled(log, host)? else { return Ok(()) };
         let rate = shown(time.per_second(), Quantity::Measured);
-        let waits = time.bottleneck.map_or_else(String::new, |what| format!(", whose draws wait for {what}"));
+        let waits = time.bottleneck.map_or_else(String::new, |what| format!("; draws wait for {what}"));
         found.conclusion(format!(
-            "{}: modelled {rate} frames per second{waits}; {} vertices are run and {} triangles set up in {} draws.",
+            "{}: {rate} frames per second (modelled){waits}; {} vertices are run and {} triangles set up in {} draws.",
             self.profile.title, time.vertices_run, time.triangles, time.calls
         ));
         let times = [
@@ -154,7 +154,8 @@ impl<'a> HostPicture<'a> {
         let range = (4.0 * errors.finite_rms / STEPS).max(1.0 / STEPS);
         let scale = shown(STEPS * range, Quantity::Measured);
         let caption = format!(
-            "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or more{}",
+            "card minus host, for the channel that differs most, in steps of 1/255: blue -{scale} or less, white 0, \
+             red +{scale} or more{}",
             false_color::not_finite(&difference)
         );
         let picture = self.view.picture(drawn);

@@ -97,7 +97,7 @@ impl BrdfFactors {
         };
         let mut pictures = Vec::new();
         if let Some(radiance) = &of_formula {
-            pictures.push(named("f", radiance, "f itself, cut off".to_owned())?);
+            pictures.push(named("f", radiance, "f itself, clipped".to_owned())?);
         }
         pictures.push(named("table", &of_table, "f interpolated from its table".to_owned())?);
         pictures.push(named("approximation", &of_terms, format!("by terms: {}", factors.terms()))?);

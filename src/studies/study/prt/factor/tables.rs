@@ -72,7 +72,8 @@ pub(super) fn charts(found: &Factorization) -> impl Iterator<Item = NamedChart> 
         caption: caption.to_owned(),
     };
     let of_values = "All singular values that can be distinguished from 0.";
-    let of_errors = "The sum of squared differences by the sum of squares over all pairs of texels, as in Figure 2.";
+    let of_errors =
+        "The sum of squared differences divided by the sum of squares, over all pairs of texels, as in Figure 2.";
     let charts = [
         ("spectrum", "Singular values", "singular value", values, of_values),
         ("error", "Error by terms", "relative squared error", errors, of_errors),

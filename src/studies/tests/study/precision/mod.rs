@@ -281,7 +281,7 @@ fn infinite_values_are_counted_and_said() {
     let found = study.findings(&mut |_, _, _| {}).expect("it runs");
     let said = found.conclusions().join(" ");
     assert!(said.contains("Every float format meets the goal") && said.contains("No fixed format meets"), "{said}");
-    assert_eq!(study.subject.notes(), ["Of 16 channels of the exact run 4 are infinite or NaN."]);
+    assert_eq!(study.subject.notes(), ["Of 16 channels of the exact run, 4 are infinite or NaN."]);
 }
 
 /// `mad` rounds once or twice: the switch determines how many bits a difference of close products needs.

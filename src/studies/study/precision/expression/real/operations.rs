@@ -172,7 +172,7 @@ fn unary(function: Function, x: &RealInterval, bits: u64) -> Real {
     range.map_or(Real::Unknown, Real::Range)
 }
 
-/// `true` if the whole interval is above zero, `false` if none of it is; `None` if some is.
+/// `true` if the whole interval is above zero, `false` if no part of it is, `None` if only a part is.
 fn positive(x: &RealInterval) -> Option<bool> {
     match x {
         _ if x.is_positive() => Some(true),

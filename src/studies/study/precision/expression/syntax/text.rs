@@ -90,7 +90,7 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Vec<Tree>, ExpressionErr
         open.last_mut().map_or(&mut done, |(.., items)| items).push(tree);
     }
     match open.pop() {
-        Some((close, start, _)) => fail(format!("expected a `{close}` for this one"), start..start + 1),
+        Some((close, start, _)) => fail(format!("expected a `{close}` for this bracket"), start..start + 1),
         None => Ok(done),
     }
 }

@@ -17,7 +17,7 @@ const REFUSED: [(&str, &str); 6] = [
     ("!", "the studied format applies to every operation, so annotations of single operations have no meaning"),
     ("while while* for for*", "loops are not supported: expressions are straight-line"),
     ("tensor tensor* array ref dim size", "tensors are not supported"),
-    ("erf erfc tgamma lgamma", "it has no enclosure over the reals here"),
+    ("erf erfc tgamma lgamma", "the study cannot enclose it over the reals"),
     ("floor ceil trunc round nearbyint fmod remainder fdim copysign", "functions with jumps are not supported"),
     ("isfinite isinf isnan isnormal signbit INFINITY NAN", "it has no meaning over the reals"),
 ];
