@@ -8,7 +8,7 @@ use super::{Problem, switch};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct CardArgs {
-    /// The card [default: the paper's]
+    /// The card [default: the card of the paper]
     #[arg(long, value_name = "D")]
     device: Option<String>,
 

@@ -18,7 +18,7 @@ fn folder() -> tempfile::TempDir {
 #[test]
 fn what_is_mended_is_said_by_every_command() {
     let folder = folder();
-    let turned = "warning: m.obj: 1 triangle turned round, to face as the triangles beside\n";
+    let turned = "warning: m.obj: 1 triangle flipped, to face like the neighbours\n";
     let scaled = "warning: m.obj: m.mtl:1: material m: `Kd` and `Ks` scaled by 1 / 1.3, to reflect at most all light\n";
     for (line, materials) in [
         ("intersect --mesh m.obj --rays r.csv --out h.csv", false),

@@ -27,10 +27,12 @@ Examples:
   crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2
       a lamp and a sky
   crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20
-      an environment map with shadows, and marble behind another boundary
+      an environment map with shadows, and marble with another index of refraction
 
-Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of every vertex of the model, in every \
-way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
+Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of \
+every vertex of the model, for every variant), study.json, angles.csv (errors by angle from the light; only with all \
+pairs and a directional light), timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, \
+pictures. docs/papers/subsurface.md explains all of it.";
 
 /// The default index of refraction for coefficients given on the command line.
 const ETA: f64 = 1.3;
@@ -39,7 +41,7 @@ const ETA: f64 = 1.3;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a built-in scene, or a stand-in for a model
     /// of the paper: stanford-bunny, stand-in-dolphin, stand-in-head
     #[arg(value_name = "MODEL")]
     model: PathBuf,

@@ -19,7 +19,7 @@ pub(in crate::cli) struct PictureArgs {
     #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = LIGHT)]
     pub(in crate::cli) light: DistantLightArg,
 
-    /// The model that the file was made from, as it was given to `precompute`
+    /// The model from which the file was made, as given to `precompute`
     #[arg(long, value_name = "MODEL")]
     pub(in crate::cli) model: PathBuf,
 

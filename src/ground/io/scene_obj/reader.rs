@@ -64,7 +64,7 @@ impl SceneReader {
         let corners = self.geometry.faces().last();
         let with_normals = corners.iter().filter(|corner| corner[2] > 0).count();
         if with_normals != 0 && with_normals != corners.len() {
-            return Err(self.geometry.syntax(line, "normals at all corners of a face, or at none", text));
+            return Err(self.geometry.syntax(line, "normals at all corners of a face, or at no corner", text));
         }
         self.material_of.push(self.current);
         Ok(())
@@ -102,7 +102,7 @@ impl SceneReader {
                 let place = FilePlace::line(&self.name, line);
                 input_error!("crossbar::model::library" =>
                     "cannot read the material library {}", path.display();
-                    help "put it beside the model, or take the line out")
+                    help "put it beside the model, or remove the line")
                 .with_source(source)
                 .at(place)
             })?;
