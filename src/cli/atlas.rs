@@ -36,7 +36,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = number::whole::<u32>(1..=MAX_SIDE))]
     side: u32,
 
-    /// Pixels of the pictures of the mesh
+    /// Size of the pictures of the mesh, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true, requires = "out")]
     size: Size,
 

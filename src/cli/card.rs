@@ -16,7 +16,7 @@ pub(super) struct CardArgs {
     #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
     switch: Vec<(String, String)>,
 
-    /// Executor; all produce bit-identical results
+    /// Executor; all executors give the same bits
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
 }

@@ -99,8 +99,8 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
         ]);
     }
     let below = [
-        "There is also ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:",
-        "no limits and no timing. `crossbar devices NAME` shows every figure of a device with its source.",
+        "There is also ideal-FORMAT for any number format, such as ideal-fp32 or ideal-s3.12:rtz: a device",
+        "without limits and timing. `crossbar devices NAME` shows every figure of a device with its source.",
     ];
     out.listing(&table, &below)?;
     Ok(Verdict::Done)

@@ -12,9 +12,9 @@ use crate::study::caster::CasterOptions;
 pub(super) enum DeviceExecutor {
     /// The reference: one fragment at a time, in integer arithmetic
     Scalar,
-    /// Many fragments at once
+    /// Many fragments at once; same bits as scalar
     Batch,
-    /// A GPU of this computer
+    /// A GPU of this computer; same bits as scalar
     Wgpu,
 }
 

@@ -59,7 +59,7 @@ pub(super) struct Args {
           conflicts_with_all = ["size", "eye", "target", "tan_half_height"])]
     rays: Option<PathBuf>,
 
-    /// Pixels of the pictures
+    /// Size of the pictures, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
@@ -90,7 +90,7 @@ pub(super) struct Args {
     #[command(flatten)]
     options: LeakyTeapotOptions,
 
-    /// Executor; all produce bit-identical results
+    /// Executor; all executors give the same bits
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
 }

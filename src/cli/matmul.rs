@@ -43,7 +43,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "C.npy")]
     c: Option<PathBuf>,
 
-    /// The units, as `crossbar units` lists them
+    /// The units; `crossbar units` lists them
     #[arg(long, value_name = "UNIT,...", required = true, value_delimiter = ',', value_parser = MatrixUnit::find)]
     unit: Vec<MatrixUnit>,
 

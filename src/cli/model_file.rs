@@ -73,7 +73,7 @@ pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
         return Ok(());
     }
     Err(Problem::usage(
-        format!("{asked} applies to model files, but the program builds `{name}` itself"),
+        format!("{asked} is for model files, but `{name}` is built in"),
         "remove the option, or give a model file",
     ))
 }

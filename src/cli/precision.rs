@@ -103,7 +103,7 @@ pub(super) struct Args {
     #[arg(long, value_parser = families())]
     family: Option<Families>,
 
-    /// Maximum number of runs of the program; then the best result so far counts [default: 10000]
+    /// Maximum number of runs of the program; after that, the best result so far counts [default: 10000]
     #[arg(long, value_name = "N", value_parser = number::whole::<u64>(1..=u64::MAX))]
     budget: Option<u64>,
 

@@ -43,7 +43,7 @@ pub(super) struct Args {
     #[command(flatten)]
     card: CardArgs,
 
-    /// Pixels of the pictures
+    /// Size of the pictures, in pixels
     #[arg(long, value_name = "WxH", default_value = "256x256", allow_hyphen_values = true)]
     size: Size,
 

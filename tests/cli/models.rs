@@ -53,7 +53,7 @@ fn a_model_with_y_up_stands_up() {
     for line in ["render office --model-up y --size 4x4", "atlas stand-in-head --model-up y"] {
         let ran = run(folder.path(), line);
         assert_eq!(ran.code, Some(2), "{line}");
-        assert!(ran.stderr.contains("applies to model files, but the program builds `"), "{}", ran.stderr);
+        assert!(ran.stderr.contains("is for model files, but `"), "{}", ran.stderr);
     }
     for line in ["alu add --model-up y", "leaky-teapot --model-up y", "intersect --mesh square.stl --model-up x"] {
         assert_eq!(run(folder.path(), line).code, Some(2), "{line}");

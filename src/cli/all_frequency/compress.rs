@@ -24,9 +24,9 @@ use crate::transfer::visibility::SegmentCensus;
 const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
-      segment by segment, with clusters without means, coded in 16 bits
+      segment by segment, in linear clusters (without means), coded in 16 bits
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --json --out small.npz
-      in fewer bits; every segment's error as JSON
+      coded in fewer bits; every segment's error as JSON
 
 The whole transfer is never stored: each segment is computed, compressed and coded before the next.";
 

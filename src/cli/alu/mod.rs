@@ -83,7 +83,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "F2")]
     to: Option<Format>,
 
-    /// The block format of `quantize` and `dequantize`, whose --format is that of the plain numbers
+    /// The block format of `quantize` and `dequantize`, which use --format for the plain numbers
     #[arg(long, value_name = "B", value_parser = blocks())]
     block: Option<BlockFormat>,
 

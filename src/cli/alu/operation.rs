@@ -38,13 +38,13 @@ pub(super) enum AluOperation {
 
 /// The operations, with TestFloat's names if it has them, and their help.
 const NAMED: [(AluOperation, &str, &str); 42] = [
-    (AluOperation::Table(Op::Add), "add", "two operands, rounded once"),
-    (AluOperation::Table(Op::Sub), "sub", "two operands, rounded once"),
-    (AluOperation::Table(Op::Mul), "mul", "two operands, rounded once"),
-    (AluOperation::Table(Op::Div), "div", "two operands, rounded once"),
+    (AluOperation::Table(Op::Add), "add", "a + b, rounded once"),
+    (AluOperation::Table(Op::Sub), "sub", "a - b, rounded once"),
+    (AluOperation::Table(Op::Mul), "mul", "a * b, rounded once"),
+    (AluOperation::Table(Op::Div), "div", "a / b, rounded once"),
     (AluOperation::Table(Op::Sqrt), "sqrt", "square root"),
     (AluOperation::Table(Op::FusedMad), "mulAdd", "a * b + c, fused: rounded once"),
-    (AluOperation::Table(Op::Equal), "eq", "a = b, as 0 or 1; quiet"),
+    (AluOperation::Table(Op::Equal), "eq", "a = b, as 0 or 1; a quiet NaN is valid"),
     (AluOperation::Table(Op::LessEqual), "le", "a <= b, as 0 or 1; any NaN is invalid"),
     (AluOperation::Table(Op::Less), "lt", "a < b, as 0 or 1; any NaN is invalid"),
     (AluOperation::Table(Op::Min), "min", "the smaller operand"),
@@ -54,7 +54,7 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Table(Op::Rcp), "rcp", "1 / a"),
     (AluOperation::Table(Op::Rsq), "rsq", "1 / sqrt(a)"),
     (AluOperation::RoundToInt, "roundToInt", "rounded to a whole number, with the rounding of the format"),
-    (AluOperation::Convert, "convert", "to the format of --to, rounded by its rules"),
+    (AluOperation::Convert, "convert", "converted to the format of --to, with its rounding"),
     (
         AluOperation::Mad,
         "mad",
@@ -82,8 +82,8 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Logp, "logp", "LOG of one word: 4 components (vertex units)"),
     (AluOperation::Lit, "lit", "lighting of x, y, w: 4 components (vertex units)"),
     (AluOperation::Dot, "dot", "a b + c d + ... of 1 to 32 pairs, in the format of --accumulator"),
-    (AluOperation::Quantize, "quantize", "1 to 32 numbers to a block of --block: scale, then elements"),
-    (AluOperation::Dequantize, "dequantize", "a block of --block (scale, then elements) to numbers"),
+    (AluOperation::Quantize, "quantize", "from 1 to 32 numbers, a block of format --block: scale, then elements"),
+    (AluOperation::Dequantize, "dequantize", "the numbers of a block of format --block (scale, then elements)"),
 ];
 
 impl AluOperation {

@@ -98,9 +98,7 @@ impl TextureArgs {
         let file = load_bi_scale(path)?;
         let Some(meaning) = file.meaning else {
             let what = format!("{}: expected transfer of a mesh, found another matrix", path.display());
-            return Err(
-                Problem::usage(what, "give what `crossbar bi-scale precompute` wrote, or its biclusters").into()
-            );
+            return Err(Problem::usage(what, "give output of `crossbar bi-scale precompute`, or its biclusters").into());
         };
         let (model, vertices, _) = model_of(path, Some(meaning.mesh), name, self.crease)?;
         let light = LocalDirections::new(meaning.side as usize)
@@ -124,7 +122,7 @@ impl TextureArgs {
         for (at, TextureArg { material, .. }) in self.texture.iter().enumerate() {
             if self.texture[..at].iter().any(|before| before.material == *material) {
                 let of = material.as_deref().map_or("all other materials".to_owned(), |name| format!("`{name}`"));
-                return Err(Problem::usage(format!("expected one texture for {of}, found two"), "remove one"));
+                return Err(Problem::usage(format!("expected one texture for {of}, found two"), "remove one of them"));
             }
             let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();
             if let Some(name) = material.as_deref().filter(|name| !names.contains(name)) {

@@ -48,7 +48,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = number::whole::<u8>(1..=64))]
     directions: u8,
 
-    /// View directions per side of such a square
+    /// View directions per side of the square that is mapped to the hemisphere
     #[arg(long, value_name = "K", default_value_t = 12, value_parser = number::whole::<u8>(1..=64))]
     views: u8,
 

@@ -37,7 +37,7 @@ pub(in crate::cli) struct Args {
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
 
-    /// Pixels of the picture
+    /// Size of the picture, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     pub(super) size: Size,
 
@@ -97,7 +97,7 @@ impl Renderer {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Light")]
 pub(super) struct LightArgs {
-    /// Rendering method [default for scenes by name: whitted]
+    /// Rendering method [default: whitted for built-in scenes and scene files, otherwise eye]
     #[arg(long, value_enum, value_name = "R")]
     pub(super) renderer: Option<Renderer>,
 
@@ -117,7 +117,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "NAME")]
     pub(super) view: Option<String>,
 
-    /// Exposure: factor on radiance in picture.png, where 1 is white [default: 1]
+    /// Exposure: a factor on radiance; in picture.png, 1 is white [default: 1]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
 
@@ -133,7 +133,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=65536))]
     pub(super) gather: Option<u32>,
 
-    /// The engine's card draws what the eye sees, from the front, and the engine casts all other rays
+    /// The engine's card draws the front faces that the eye sees, and the engine casts all other rays
     #[arg(long)]
     pub(super) drawn_eyes: bool,
 }

@@ -47,7 +47,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Executor; all produce bit-identical results
+    /// Executor; all executors give the same bits
     #[arg(long, value_enum, default_value = "scalar")]
     executor: DeviceExecutor,
 

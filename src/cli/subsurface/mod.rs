@@ -58,7 +58,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "A", value_parser = coefficient, requires = "sigma_s", allow_hyphen_values = true)]
     sigma_a: Option<[f64; 3]>,
 
-    /// Index of refraction, 1 to 3 [default: the published one; 1.3 with --sigma-s and --sigma-a]
+    /// Index of refraction, 1 to 3 [default: the published index; 1.3 with --sigma-s and --sigma-a]
     #[arg(long, value_name = "N", value_parser = number::finite)]
     eta: Option<f64>,
 
@@ -68,14 +68,14 @@ pub(super) struct Args {
     /// ambient:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated. Or one environment map,
     /// with shadows: a lat-long, angular-probe, cube-cross or cube-strip picture, a table of a cube's texels (.csv) or
     /// of small sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun),
-    /// red-and-blue or scene:SCENE@X,Y,Z (as seen from a place in a scene) [default: from beside the camera]
+    /// red-and-blue or scene:SCENE@X,Y,Z (as seen from a place in a scene) [default: white, from beside the camera]
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Vec<LightArg>,
 
     #[command(flatten)]
     card: CardArgs,
 
-    /// Pixels of the pictures
+    /// Size of the pictures, in pixels
     #[arg(long, value_name = "WxH", default_value = "256x256", allow_hyphen_values = true)]
     size: Size,
 
@@ -149,7 +149,7 @@ impl Args {
             }
             _ => {
                 let help = "add `--material NAME` (see `crossbar materials`), or `--sigma-s` and `--sigma-a` per mm";
-                Err(Problem::usage("expected a medium", help).into())
+                Err(Problem::usage("expected a medium, found none", help).into())
             }
         }
     }
