@@ -21,8 +21,8 @@
 //!
 //! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. Each
 //! executor has its own arithmetic: the scalar executor computes in integers, one value at a time, following the
-//! specifications; the batch executor with the host's SIMD instructions; the wgpu executor (feature `wgpu`) in WGSL.
-//! Tests compare them.
+//! specifications; the batch executor uses the host's SIMD instructions; the wgpu executor (feature `wgpu`) computes in
+//! WGSL. Tests compare them.
 //!
 //! # A draw
 //!
@@ -73,7 +73,7 @@
 //!
 //! # A mistake
 //!
-//! Errors of a program quote its line, also where `main` returns them:
+//! Errors of a program quote its line, even if `main` returns them:
 //!
 //! ```
 //! let errors = refsim::asm::assemble("ps_1_4\nmov r0, r1\nmull r0, r0, r0\n").expect_err("a wrong name");
@@ -88,7 +88,7 @@
 //! # Where next
 //!
 //! - [`machine`]: textures, targets, draws, read-back, traces of single pixels
-//! - [`device`]: the cards, their figures with sources, and switches where sources leave several values
+//! - [`device`]: the cards, their figures with sources, and switches for what the sources leave open
 //! - [`num`]: formats as strings, operations, flags
 //! - [`timing`]: from a machine's log to clocks and a timeline; the crate `refsim-criterion` benchmarks in modelled
 //!   time

@@ -86,7 +86,7 @@ impl FormatRecord {
 
 const UNUSED: Channel = Channel { shift: 0, bits: 1, class: Unorm, stored_from: 0 };
 
-/// Channel `(shift, bits, component)` triples of one class.
+/// Channels of a class, from `(shift, bits, component)` triples.
 const fn channels(class: ChannelClass, list: &[(u8, u8, u8)]) -> [Channel; 4] {
     let mut out = [UNUSED; 4];
     let mut i = 0;
@@ -155,7 +155,7 @@ macro_rules! texel_formats {
 }
 
 texel_formats! {
-    /// 8-bit alpha, colour black.
+    /// 8-bit alpha; the colour is black.
     A8 "a8" "a8" 1 1 channels(Unorm, &[(0, 8, 3)]), ALPHA;
     /// 8-bit luminance, in red, green and blue.
     L8 "l8" "l8" 1 1 channels(Unorm, ONE8), LUMINANCE;

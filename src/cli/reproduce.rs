@@ -16,34 +16,34 @@ use crate::study::reproduce::{EntryRecord, Parameters, RecordMade, ReproduceEntr
 const EXAMPLES: &str = "\
 Examples:
   crossbar reproduce
-      every entry, in out/reproduce/index.html
+      computes all entries; the page is out/reproduce/index.html
   crossbar reproduce ray-engine-equation-11 ray-engine-figure-7 --json
-      two of them, as JSON on standard output
+      two entries, as JSON on standard output
   crossbar reproduce radiosity
       all entries of a paper: ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
   crossbar reproduce cpca-table-1 --full-size
-      a recorded entry, computed anew
+      repeats the run of a recorded entry
   crossbar reproduce --record out/records
-      writes the records, entry by entry
+      repeats all recorded runs, and writes their records
   crossbar reproduce --list
-      the entries
+      lists the entries
 
-Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json and a drawing
-NAME.svg per chart.
-Each printed figure has one row, with a bound and the date on which it was stated, and a verdict, which the page
-explains. Entries that take minutes to hours are recorded runs, which the program contains; --full-size computes them
-anew and compares them with the record. The source of each row says which.
-An interrupted run leaves no incomplete files; the next run starts from the beginning, or from the
-entries that are named. --record continues: an existing file stays, and so do the finished pieces
-of all-frequency-table-1 and all-frequency-figures, which take hours, in FOLDER/ID.pieces.
-A missed figure is a finding, and docs/papers lists it with the open question: the exit code is 0. It
-is 1 only if --full-size computes a value that differs from the record.";
+Written to --out: index.html (self-contained), rows.csv, tally.csv, unjudged.csv, study.json, and a
+drawing NAME.svg for each chart.
+Each printed figure has one row, with its verdict, its bound, and the date on which the bound was stated. The page
+explains the verdicts. Entries that take minutes to hours come from recorded runs, stored in the program; --full-size
+repeats the runs and compares the results with the records. The source of a row says whether it was recorded.
+An interrupted run leaves no incomplete files; the next run starts from the beginning. With --record,
+it continues where the last run stopped: existing records are kept, and so are the finished pieces of
+all-frequency-table-1 and all-frequency-figures, which take hours; they are in FOLDER/ID.pieces.
+The exit code is 0 even if figures are missed: a missed figure is a finding, and docs/papers lists it with
+its open question. The exit code is 1 if --full-size computes a value that differs from its record.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// Entries to reproduce, or papers with all their entries [default: everything]
+    /// Names of entries, or of papers for all their entries [default: all entries]
     #[arg(value_name = "ID")]
     entries: Vec<String>,
 
@@ -51,11 +51,11 @@ pub(super) struct Args {
     #[arg(long)]
     list: bool,
 
-    /// Compute recorded entries anew: minutes for most, hours for two
+    /// Repeat recorded runs and compare them with their records: minutes for most, hours for two
     #[arg(long)]
     full_size: bool,
 
-    /// Run entries, and record what each finds in FOLDER/ID.toml
+    /// Run entries at full size, and record the findings of each in FOLDER/ID.toml
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["list", "full_size", "out"])]
     record: Option<PathBuf>,
 
@@ -98,7 +98,7 @@ fn list(entries: &[String], out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// Records the requested entries, or all that have a record; existing files stay.
+/// Records the requested entries, or all that have a record; existing files are kept.
 fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> {
     let mut entries = choose(&args.entries)?;
     if args.entries.is_empty() {
@@ -106,7 +106,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     }
     // Checked before the long work, so that an unwritable folder is found at once.
     require_writable(folder).map_err(Problem::from)?;
-    let bar = ProgressBar::new("", 1).quicker("names of single entries; interrupted, it goes on");
+    let bar = ProgressBar::new("", 1).quicker("names of single entries; an interrupted run continues where it stopped");
     let mut table = Table::of("Records", "entry record processor_s wall_s");
     for (done, entry) in (0..).zip(&entries) {
         bar.show(entry.id.to_owned(), done, entries.len() as u64);

@@ -61,10 +61,10 @@ pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
 }
 
 /// The seeds of a run, and further seeds to draw if these cover nothing. By default, a suite draws one of three parts of
-/// its seeds, depending on its name; a suite of the project's files draws all. `CROSSBAR_FULL=1` draws 105 times as many
+/// its seeds, depending on its name; a suite of the project's files draws all. `CROSSBAR_FULL=1` draws ten times as many
 /// seeds.
 fn seeds_of(suite: &Suite) -> [Range<u64>; 2] {
-    let all = seeds(suite.seeds, 105);
+    let all = seeds(suite.seeds, 10);
     if all != (0..suite.seeds) || matches!(suite.kind, Kind::Kernels | Kind::Shaders) {
         return [all, 0..0];
     }

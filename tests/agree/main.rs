@@ -4,7 +4,7 @@
 //! every SIMD level and thread count, draw each case, and all targets, the depth buffer and every counter are compared.
 //! A failing case is shrunk, and printed with the command that reproduces it: the suite's name, such as
 //! `programs::ps_1_2::long_fixed::pipeline`, and `CROSSBAR_SEED`.
-//! `CROSSBAR_FULL=1` runs 105 times as many cases, `CROSSBAR_FUZZ=10m` runs for ten minutes.
+//! `CROSSBAR_FULL=1` runs ten times as many cases, `CROSSBAR_FUZZ=10m` runs for ten minutes.
 
 #[path = "../../refsim/tests/common/adapter.rs"]
 mod adapter;

@@ -10,7 +10,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let time = ModelledTime::on_card(Profile::named("nv20")?, |machine| {
 //!     let target = machine.create_target(TexelFormat::Bgra8, 256, 256)?;
-//!     machine.clear_target(target, [0; 4]) // draws, in earnest
+//!     machine.clear_target(target, [0; 4]) // a real benchmark draws here
 //! })?;
 //! ModelledTime::bench("nv20", "65536 texels", 65536, time);
 //! # Ok(())
@@ -52,7 +52,7 @@ pub enum RunError {
 pub struct ModelledTime;
 
 /// Host time to spend per iteration. Criterion chooses the number of iterations by the host's clock; if iterations took
-/// no time, it would double their number until count and picoseconds overflow.
+/// no time, it would double their number until the count and the picoseconds overflow.
 const HOST_TIME: Duration = Duration::from_micros(100);
 
 /// [`ModelledTime::criterion`] without command line arguments.
@@ -72,7 +72,7 @@ impl ModelledTime {
         settings().configure_from_args()
     }
 
-    /// Duration of `run` on `card` by the pipeline model, drawn with the batch executor.
+    /// The duration of `run` on `card` according to the pipeline model. The batch executor draws.
     ///
     /// # Errors
     /// [`RunError`].
@@ -95,8 +95,8 @@ impl ModelledTime {
         group.finish();
     }
 
-    /// Adds a run of `elements` items to a group. Criterion's estimate is `run` without variance, for runs of up to 90
-    /// s.
+    /// Adds a run of `elements` items to a group. For runs of up to 90 s, criterion's estimate equals `run`, without
+    /// variance.
     pub fn measure(group: &mut BenchmarkGroup<'_, Self>, id: BenchmarkId, elements: u64, run: Picoseconds) {
         group.throughput(Throughput::Elements(elements));
         group.bench_function(id, |bencher| {

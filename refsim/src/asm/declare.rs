@@ -54,7 +54,7 @@ fn usage(part: &str, span: Span) -> Parsed<Usage> {
             span,
             "a usage index of at most 255",
             quote(digits),
-            "Direct3D gives every usage indices 0 to 15",
+            "indices of usages are 0 to 15 in Direct3D",
         )
     })
 }
@@ -169,7 +169,7 @@ impl<'a> Parser<'a> {
             Span::new(token.span.start, self.last_end()),
             format!("a register `{}#`", file.prefix()),
             token.found(),
-            "`def` fills c#, `defi` fills i#, `defb` fills b#",
+            "`def` defines c#, `defi` defines i#, `defb` defines b#",
         ))
     }
 

@@ -83,7 +83,7 @@ pub enum ErrorKind {
     /// A malformed predicate before an instruction.
     #[error("malformed predicate")]
     Predicate,
-    /// `+` or a predicate before a statement that allows none.
+    /// `+` or a predicate before a statement that allows neither.
     #[error("misplaced prefix")]
     MisplacedPrefix,
     /// A value that is not a number, integer or boolean.

@@ -11,7 +11,7 @@ pub(super) fn swizzle(letters: &str, span: Span) -> Parsed<Swizzle> {
             span,
             "one to four letters of xyzw or of rgba",
             quote(letters),
-            "write `.x`, `.xyz` or `.wzyx`, for example; the two sets of letters don't mix",
+            "write `.x`, `.xyz` or `.wzyx`, for example; letters of the two sets cannot be mixed",
         )
     };
     let components = components(letters).ok_or_else(bad)?;
@@ -47,9 +47,9 @@ pub(super) fn mask(letters: &str, span: Span) -> Parsed<Mask> {
         )
     };
     let Some(components) = components(letters) else {
-        return Err(bad("write `.x`, `.rgb` or `.xyw`, for example; the two sets of letters don't mix"));
+        return Err(bad("write `.x`, `.rgb` or `.xyw`, for example; letters of the two sets cannot be mixed"));
     };
-    mask_of(&components).ok_or_else(|| bad("a destination takes a mask, no swizzle: put the swizzle on the sources"))
+    mask_of(&components).ok_or_else(|| bad("a destination has a mask, not a swizzle: put the swizzle on the sources"))
 }
 
 /// The mask of components in ascending order; `None` for another order.

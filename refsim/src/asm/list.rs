@@ -33,7 +33,7 @@ impl Parser<'_> {
             TokenKind::Plus => self.peek_at(ahead + 1).kind != TokenKind::Number,
             TokenKind::Number | TokenKind::Minus | TokenKind::Bang => false,
             TokenKind::Comma | TokenKind::OpenParen | TokenKind::Newline | TokenKind::End => true,
-            // The operand's own error is more specific, if the operand is in this line.
+            // If the operand is in this line, its own error is more specific.
             _ => ahead > 0,
         };
         if !ends && !first {

@@ -52,7 +52,7 @@ pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
             Span::new(0, 0),
             format!("at most {MAX_TEXT} bytes of program text"),
             format!("{} bytes", text.len()),
-            "split the text: no card of the period takes a program of this length",
+            "split the text: no card of the period runs a program of this length",
         )]));
     }
     let parsed = if gl::is_program(text) { gl::assemble(text) } else { parser::Parser::new(text).run() };

@@ -28,7 +28,7 @@ fn check_length(text: &str, span: Span) -> Result<(), SyntaxError> {
         &format!("a number of at most {MAX_NUMBER} characters"),
         &format!("{} characters", text.len()),
         span,
-        "nine digits say everything that fp32 can hold",
+        "nine digits are enough for every fp32 number",
     ))
 }
 

@@ -55,7 +55,7 @@ fn out_of_range(what: &str, found: &str, span: Span) -> SyntaxError {
         span,
         format!("a {what} of at most {MAX_REGISTER}"),
         quote(found),
-        "no version has more than a few hundred registers of a kind",
+        "no version has more than a few hundred registers of any kind",
     )
 }
 
@@ -143,7 +143,7 @@ impl<'a> Parser<'a> {
     fn malformed(&self, expected: &str) -> SyntaxError {
         let token = self.peek();
         let help = match token.kind {
-            TokenKind::Number => "constants are named: `def c0, ...` first, then `c0`",
+            TokenKind::Number => "an operand cannot be a number: write `def c0, ...` first, then `c0`",
             TokenKind::Newline | TokenKind::End => "the operand is missing",
             _ => "an operand is a register, with modifiers and letters: `-r0_bx2.xyz`",
         };
@@ -176,7 +176,7 @@ impl<'a> Parser<'a> {
             span,
             "a register with or without a mask",
             quote(found),
-            "the first operand is written; results are modified on the instruction: `add_x2_sat r0, ...`",
+            "the first operand is the result; its modifiers belong on the instruction: `add_x2_sat r0, ...`",
         )
     }
 

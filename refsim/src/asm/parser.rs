@@ -37,7 +37,6 @@ impl DerefMut for Parser<'_> {
     }
 }
 
-/// Prefix of a statement.
 #[derive(Clone, Copy)]
 struct StatementPrefix {
     coissue: bool,
@@ -158,7 +157,7 @@ impl<'a> Parser<'a> {
         let help = match token.text {
             "#" => "there is no preprocessor: write numbers and registers out",
             "{" | "}" => "blocks are delimited by words: if_gt ... else ... endif",
-            "," => "a comma stands between two operands only",
+            "," => "a comma can only be between two operands",
             _ => "one instruction per line: mnemonic, destination, sources",
         };
         self.record(token.error(ErrorKind::UnexpectedToken, expected, help));
@@ -279,11 +278,11 @@ impl<'a> Parser<'a> {
             _ => format!("{destination} to {MAX_OPERANDS} operands of `{name}`"),
         };
         let help = match (destination, wanted) {
-            (0, Some(0)) => format!("`{name}` stands alone"),
-            (0, _) => format!("`{name}` has no destination; its operands are all read"),
-            (_, Some(1)) => format!("`{name}` takes its destination only"),
-            (_, Some(n)) => format!("`{name}` takes a destination and {} more", n - 1),
-            (_, None) => format!("`{name}` takes a destination first"),
+            (0, Some(0)) => format!("`{name}` has no operands"),
+            (0, _) => format!("`{name}` has no destination: it reads all its operands"),
+            (_, Some(1)) => format!("`{name}` has no operand but its destination"),
+            (_, Some(n)) => format!("operands of `{name}`: a destination and {} more", n - 1),
+            (_, None) => format!("the first operand of `{name}` is its destination"),
         };
         Some(SyntaxError::new(ErrorKind::OperandCount, span, expected, found.to_string(), help))
     }

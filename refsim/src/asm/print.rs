@@ -9,9 +9,9 @@ use std::fmt::Write;
 
 const LETTERS: [char; 4] = ['x', 'y', 'z', 'w'];
 
-/// Prints a program in canonical form: one statement per line, definitions before declarations at their positions among
-/// the instructions, lower case (except for registers whose names Direct3D writes otherwise), `xyzw`, modifiers in the
-/// order shift, `_sat`, `_pp`, shortest decimals.
+/// Prints a program in canonical form: one statement per line; definitions before declarations, at their positions
+/// among the instructions; lower case, except for registers that Direct3D writes otherwise; components as `xyzw`;
+/// modifiers in the order shift, `_sat`, `_pp`; shortest decimals.
 ///
 /// [`super::assemble`] parses the result back to an equal program, if definitions and declarations are in ascending
 /// order of position, no mask is empty, and shifts are from -3 to 3.

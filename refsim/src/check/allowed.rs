@@ -42,9 +42,9 @@ impl Allowed {
     pub(super) fn help(&self, advice: &str) -> String {
         let Self { key, owner, .. } = self;
         if self.by_device {
-            format!("{advice}; the figure is `{key}` of profile {owner}")
+            format!("{advice}; the limit is `{key}` of profile {owner}")
         } else {
-            format!("{advice}; {owner} sets this limit on every card, only `ideal-` devices lift `{key}`")
+            format!("{advice}; {owner} has this limit on every card; `{key}` is unlimited only on `ideal-` devices")
         }
     }
 }

@@ -37,7 +37,7 @@ pub(super) fn check(context: &mut Context<'_>) {
             let help = if vertex {
                 "vertex programs declare v# with a usage: dcl_position v0"
             } else {
-                "pixel programs declare t# and v# plainly, and s# with a texture type: dcl_2d s0"
+                "pixel programs declare t# and v# without a suffix, and s# with a texture type: dcl_2d s0"
             };
             context.breach(rule, declaration.span, message).help(help);
             continue;

@@ -23,7 +23,7 @@ pub struct Facts {
     pub has_flow: bool,
     /// One more than the highest `r#`, matrix rows included.
     pub temporaries: u16,
-    /// One more than the highest `c#` named or defined, matrix rows included; relative addresses may be higher.
+    /// One more than the highest `c#` used or defined, matrix rows included; relative addresses may be higher.
     pub constants: u16,
     /// `true` if constants are addressed relatively.
     pub relative_constants: bool,
@@ -41,7 +41,7 @@ pub struct Facts {
     pub writes_depth: bool,
     /// `true` if the program can kill fragments.
     pub kills: bool,
-    /// `true` if the program takes derivatives, explicitly (`dsx`, `dsy`) or to select a mip level.
+    /// `true` if the program uses derivatives, explicitly (`dsx`, `dsy`) or to select a mip level.
     pub uses_derivatives: bool,
     /// Bit `n`: a vertex program writes `oT#n`.
     pub texcoord_outputs: u32,
@@ -51,8 +51,8 @@ pub struct Facts {
     pub slots: [SlotCount; 2],
 }
 
-/// A program that is legal for a device. Only [`super::check`] creates this type, so code that takes it may rely on all
-/// rules.
+/// A program that is legal for a device. Only [`super::check`] creates this type, so code that accepts it may rely on
+/// all rules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checked<T> {
     inner: T,

@@ -104,7 +104,7 @@ fn operands(context: &mut Context<'_>, instruction: &Instruction) {
             _ => (true, ""),
         };
         if !fits {
-            let message = format!("`{name}` takes `{}`, expected {expected}", source.register);
+            let message = format!("the operand of `{name}` is `{}`, expected {expected}", source.register);
             context.breach(RuleId::FlowOperands, source.span, message).label("this operand");
         }
     }
@@ -346,7 +346,7 @@ fn predicates(context: &mut Context<'_>) {
             context.breach(RuleId::PredicateUse, predicate.span, problem);
         }
         if predicate.swizzle.0.iter().any(|c| *c > 3) {
-            context.breach(RuleId::InvalidSwizzle, predicate.span, "a predicate names a component beyond the fourth");
+            context.breach(RuleId::InvalidSwizzle, predicate.span, "a predicate selects a component beyond the fourth");
         }
     }
 }

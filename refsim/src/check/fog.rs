@@ -11,9 +11,9 @@
 //! LRP result.color.xyz, t.w, t, state.fog.color;
 //! ```
 //!
-//! They count towards the limits as in the specification: three instructions for `ARB_fog_exp`, four for
-//! `ARB_fog_exp2`, two for `ARB_fog_linear`, and one temporary, one attribute and two parameters each. A limit exceeded
-//! because of them is reported at the option. Programs that write no color are not fogged.
+//! These instructions count towards the limits as in the specification: three for `ARB_fog_exp`, four for
+//! `ARB_fog_exp2`, two for `ARB_fog_linear`. Each option also counts as one temporary, one attribute and two
+//! parameters. A limit exceeded because of them is reported at the option. Programs that write no color are not fogged.
 
 use crate::isa::{
     Destination, FIRST_NAMED, FogMode, FogOption, Instruction, Mask, Modifier, Opcode, Parameter, ParameterSource,

@@ -77,7 +77,7 @@ fn registers(context: &mut Context<'_>, instruction: &Instruction) {
         };
         if u32::from(number) >= count {
             let name = written_name(register, number);
-            let message = format!("`{name}` does not exist: there are {count}");
+            let message = format!("`{name}` does not exist: there are only {count}");
             let violation = context.breach(RuleId::NoSuchRegister, span, message).label("no such register");
             violation.figure(count, u32::from(number) + 1).help("count from 0");
             violation.key = (key != "version").then_some(key);

@@ -1,7 +1,7 @@
 //! The checker: validates a program for a device, and returns a [`Checked`] program or a list of all violations.
 //!
 //! [`check`] reports *every* violation of the rules [`RuleId`] in one pass, each with its location, the value found,
-//! the value allowed, and the profile key of the limit. Executors take only [`Checked`] programs and rely on their
+//! the value allowed, and the profile key of the limit. Executors accept only [`Checked`] programs and rely on their
 //! properties: register numbers are in range, operands are present, blocks are closed, labels exist, subroutines do not
 //! recurse, and every register read is written on some path.
 //!
@@ -40,8 +40,8 @@ use crate::device::Profile;
 use crate::isa::{Program, RegisterFile, Stage, Version};
 use context::{Context, Count};
 
-/// Number of registers of a file that programs of a Direct3D version have on a device; `None` if the version has no such
-/// file.
+/// Number of registers of a file that programs of a Direct3D version have on a device; `None` if the version does not
+/// have the file.
 pub fn registers(file: RegisterFile, version: Version, profile: &Profile) -> Option<u32> {
     Count::of(file, version, profile).map(|count| count.value())
 }

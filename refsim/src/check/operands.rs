@@ -53,7 +53,7 @@ pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, spa
     let found = if register.relative.is_some() { register.to_string() } else { format!("{prefix}{index}") };
     match count {
         Count::Limited(allowed) => {
-            let message = format!("program names `{found}`, {} {range}", allowed.owner);
+            let message = format!("program uses `{found}`, {} {range}", allowed.owner);
             context.breach(RuleId::NoSuchRegister, span, message).label("no such register").exceeds(
                 index,
                 &allowed,
@@ -61,7 +61,7 @@ pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, spa
             );
         }
         Count::Fixed(_) => {
-            let message = format!("program names `{found}`, {version} {range}");
+            let message = format!("program uses `{found}`, {version} {range}");
             context.breach(RuleId::NoSuchRegister, span, message).label("no such register");
         }
     }
@@ -195,7 +195,7 @@ fn result_modifiers(context: &mut Context<'_>, instruction: &Instruction, destin
         if matches!(opcode, Opcode::Frc | Opcode::SinCos) && version.is_ps_2() {
             add(RuleId::InvalidSaturate, "_sat, which frc and sincos do not allow");
         } else if output {
-            add(RuleId::OutputWrite, "_sat, but an output is written as it is");
+            add(RuleId::OutputWrite, "_sat, but outputs have no modifiers");
         } else if texture || version.stage() == Stage::Vertex || !is_arithmetic(opcode) || opcode == Opcode::Setp {
             add(RuleId::InvalidInstructionModifier, "_sat, but only arithmetic of pixel programs can be saturated");
         }
@@ -253,7 +253,7 @@ fn source_file(context: &mut Context<'_>, index: usize, instruction: &Instructio
 fn swizzle(context: &mut Context<'_>, instruction: &Instruction, source: &Source) {
     let (version, opcode, swizzle) = (context.version, instruction.opcode, source.swizzle);
     if swizzle.0.iter().any(|c| *c > 3) {
-        context.breach(RuleId::InvalidSwizzle, source.span, "a selector names a component beyond the fourth");
+        context.breach(RuleId::InvalidSwizzle, source.span, "a selector selects a component beyond the fourth");
         return;
     }
     let identity = swizzle == Swizzle::IDENTITY;
@@ -297,15 +297,13 @@ fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source:
         Version::Ps1_4 if texture => (
             RuleId::InvalidSourceModifier,
             matches!(modifier, M::None | M::Dz | M::Dw),
-            "none but _dz and _dw on texture instructions",
+            "only _dz and _dw on texture instructions",
         ),
-        v if v.is_ps_1_1_to_1_3() && texture => (
-            RuleId::InvalidSourceModifier,
-            matches!(modifier, M::None | M::Bx2),
-            "none but _bx2 on texture instructions",
-        ),
+        v if v.is_ps_1_1_to_1_3() && texture => {
+            (RuleId::InvalidSourceModifier, matches!(modifier, M::None | M::Bx2), "only _bx2 on texture instructions")
+        }
         Version::Ps1_4 if source.register.file == RegisterFile::Constant => {
-            (RuleId::InvalidSourceModifier, modifier == M::None, "none on constants")
+            (RuleId::InvalidSourceModifier, modifier == M::None, "no modifier on constants")
         }
         v if v.is_ps_1_x() => {
             let expands = matches!(modifier, M::Invert | M::Bias | M::BiasNegate | M::Bx2 | M::Bx2Negate);
@@ -314,13 +312,13 @@ fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source:
             (RuleId::InvalidSourceModifier, simple || expands || doubles, all)
         }
         v if v.is_ps_2() && texture => {
-            (RuleId::TextureReadOperands, modifier == M::None, "none on texture instructions")
+            (RuleId::TextureReadOperands, modifier == M::None, "no modifier on texture instructions")
         }
-        v if v.is_ps_2() => (RuleId::OnlyNegation, simple, "- alone"),
-        _ => (RuleId::InvalidSourceModifier, simple, "- alone"),
+        v if v.is_ps_2() => (RuleId::OnlyNegation, simple, "only -"),
+        _ => (RuleId::InvalidSourceModifier, simple, "only -"),
     };
     if !allowed {
-        let message = format!("`{}` carries a source modifier, {version} allows {expected}", source.register);
+        let message = format!("`{}` has a source modifier, {version} allows {expected}", source.register);
         context.breach(rule, source.span, message).label("this modifier");
     }
 }

@@ -115,7 +115,7 @@ fn step(
         None if rows > 0 && !pad => {
             let name = instruction.opcode.info().mnemonic;
             let n = rows - 1;
-            let message = format!("`{name}` lacks its {n} pad{} before it", if n == 1 { "" } else { "s" });
+            let message = format!("`{name}` does not follow its {n} pad{}", if n == 1 { "" } else { "s" });
             context.breach(RuleId::TextureChain, instruction.span, message);
         }
         None => {}
@@ -162,7 +162,7 @@ fn expansion(context: &mut Context<'_>) {
             context.breach(
                 RuleId::ExpandModifier,
                 source.span,
-                format!("`{name}` of {version} can not expand with `_bx2`"),
+                format!("`{name}` of {version} cannot expand with `_bx2`"),
             );
         }
     }

@@ -25,7 +25,7 @@ fn colors(context: &mut Context<'_>) {
             if source.register.file == RegisterFile::Input && context.phase(index) == 1 {
                 context
                     .breach(RuleId::ColorReadInPhase1, source.span, format!("`{}` is read in phase 1", source.register))
-                    .help("colours arrive in phase 2: move the instruction behind `phase`");
+                    .help("colours can only be read in phase 2: move the instruction after `phase`");
             }
         }
     }
@@ -84,7 +84,7 @@ fn depth(context: &mut Context<'_>) {
             if let Some(span) = read.or(written) {
                 context
                     .breach(RuleId::TexDepth, span, "`r5` is used after texdepth")
-                    .help("texdepth uses up r5: copy its value with texcrd first");
+                    .help("r5 is lost after texdepth: copy its value with texcrd first");
             }
         }
         if instruction.opcode != Opcode::TexDepth {
@@ -115,7 +115,7 @@ fn bump(context: &mut Context<'_>) {
         if context.phase(index) != 1 {
             context
                 .breach(RuleId::Bem, instruction.span, "`bem` is in phase 2, but only phase 1 allows it")
-                .help("a program without `phase` is all phase 2: put the marker behind bem");
+                .help("a program without `phase` only has phase 2: write `phase` after bem");
         }
         if found == 2 {
             context.breach(RuleId::Bem, instruction.span, "program has a second `bem`, ps_1_4 allows 1");
@@ -191,7 +191,7 @@ fn stages(context: &mut Context<'_>) {
         let is_register = context.count(RegisterFile::Temp).is_some_and(|c| stage < c.value());
         if stage >= allowed.value && is_register {
             let message = format!("`texld` samples stage {stage}, {} has {} stages", allowed.owner, allowed.value);
-            let advice = "texld samples the stage of its destination's number: load a lower register";
+            let advice = "texld samples the stage with the number of its destination: load a lower register";
             context
                 .breach(RuleId::NoSuchRegister, instruction.span, message)
                 .label("this stage")

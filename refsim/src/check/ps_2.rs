@@ -34,7 +34,7 @@ fn tokens(context: &mut Context<'_>, instruction: &Instruction) {
     }
     let found = instruction.sources.iter().filter(|s| s.register.file == RegisterFile::Constant).count();
     if found > 2 {
-        let message = format!("instruction names {found} constants, {} allows 2", context.version);
+        let message = format!("instruction reads {found} constants, {} allows 2", context.version);
         let violation = context.breach(RuleId::TooManyConstants, instruction.span, message);
         violation.figure(2, found as u32).help("mov one of them into a temporary first");
     }
@@ -76,7 +76,7 @@ fn sincos(context: &mut Context<'_>, instruction: &Instruction) {
         context.breach(RuleId::SinCosOperands, angle.span, "`sincos` reads several components of its angle");
     }
     if first.register == second.register {
-        context.breach(RuleId::SinCosOperands, second.span, "`sincos` takes both its constants from one register");
+        context.breach(RuleId::SinCosOperands, second.span, "both constants of `sincos` are in the same register");
     }
     let plain = |s: &Source| s.swizzle == Swizzle::IDENTITY && s.modifier == Modifier::None;
     for source in [first, second].into_iter().filter(|s| !plain(s)) {
@@ -95,7 +95,7 @@ fn matrix(context: &mut Context<'_>, instruction: &Instruction) {
     // A nonexistent first row is reported elsewhere, as a register.
     if u32::from(register.index) < count && last >= count {
         let message =
-            format!("`{name}` reads `{prefix}{last}` for its last row, the last one is `{prefix}{}`", count - 1);
+            format!("the last row of `{name}` is `{prefix}{last}`, the last register is `{prefix}{}`", count - 1);
         context.breach(RuleId::MatrixRows, source.span, message);
     }
     if source.swizzle != Swizzle::IDENTITY || source.modifier != Modifier::None {
@@ -134,7 +134,7 @@ fn steps(context: &mut Context<'_>, instruction: &Instruction) {
     if let (Opcode::Sgn, [_, a, b]) = (opcode, instruction.sources.as_slice())
         && a.register == b.register
     {
-        context.breach(RuleId::MacroOperands, b.span, "`sgn` has one scratch register twice");
+        context.breach(RuleId::MacroOperands, b.span, "`sgn` has the same scratch register twice");
     }
     let mask = destination.mask;
     let (fits, expected) = match (opcode, rows) {

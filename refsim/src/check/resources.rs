@@ -27,7 +27,7 @@ pub(super) fn check(context: &mut Context<'_>, fog: Option<FogOption>) {
         let free = allowed.value.saturating_sub(reserved);
         let Some(&place) = places.get(free as usize) else { continue };
         let found = places.len() as u32;
-        let taken = if reserved > 0 { format!(" and its fog option takes {reserved}") } else { String::new() };
+        let taken = if reserved > 0 { format!(" and its fog option uses {reserved}") } else { String::new() };
         let message = format!("program has {found} {kinds}{taken}, {} allows {}", allowed.owner, allowed.value);
         let label = format!("the {} {kind}", ordinal(free + 1));
         let advice = match limit {

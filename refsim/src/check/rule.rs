@@ -51,7 +51,7 @@ rules! {
     TooManyReads V08 "an instruction reads no more different registers of a file than the file has read ports";
     TooManyPairReads V09 "a co-issued pair reads at most three different registers of a file";
     MalformedPair V10 "a co-issued pair is one instruction writing within .rgb and one writing .a, neither of them dp4 (ps_1_x)";
-    UnwrittenRead V11 "components are written before they are read; a phase marker undefines all alpha components";
+    UnwrittenRead V11 "components are written before they are read; alpha is undefined after a phase marker";
     UnwrittenResult V12 "the program writes all of r0 (ps_1_x)";
     InvalidDestination V13 "the destination can be written by the instruction";
     InvalidMask V14 "the version and the instruction allow the write mask";
@@ -95,7 +95,7 @@ rules! {
     UnclosedBlock V52 "blocks close in the order in which they were opened";
     NestingDepth V53 "flow control is nested no deeper than allowed";
     Subroutines V54 "subroutines follow the main program, end with ret and call only later ones";
-    FlowOperands V55 "flow control has the operands and the place that it needs";
+    FlowOperands V55 "flow control has valid operands and is in a valid place";
     DivergentGradient V56 "gradients are not taken where fragments may diverge";
     PredicateUse V57 "p0 is set before it is used, and predicates only what can be predicated (ps_2_a)";
     FogAndPointSizeMask V58 "oFog and oPts are written through .x (vertex)";
@@ -114,6 +114,6 @@ rules! {
     /// A warning about legal code that does not do what its text suggests.
     WarningId:
     ClampedConstant W01 "constants of ps_1_x are clamped to -1 to 1";
-    FogIsNotBlended W02 "oFog blends no fog: fixed-function fog is not emulated";
-    PointsAreNotDrawn W03 "oPts sizes no points: points are not drawn";
+    FogIsNotBlended W02 "oFog does not cause fog: fixed-function fog is not emulated";
+    PointsAreNotDrawn W03 "oPts has no effect: points are not drawn";
 }

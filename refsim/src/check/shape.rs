@@ -57,8 +57,8 @@ fn constants(context: &mut Context<'_>) {
                 context.warnings.push(Warning {
                     id: WarningId::ClampedConstant,
                     span: def.span,
-                    message: format!("`{register}` is defined beyond -1 to 1 and clamped"),
-                    help: "constants of ps_1_x lie in -1 to 1: scale the value and undo it with _x2, _x4 or _x8",
+                    message: format!("`{register}` has values outside -1 to 1, which are clamped"),
+                    help: "constants of ps_1_x are in -1 to 1: scale the value and undo it with _x2, _x4 or _x8",
                 });
             }
         }
@@ -86,12 +86,12 @@ fn instructions(context: &mut Context<'_>) {
         }
         let destination = info.destination != DestinationRule::None;
         if instruction.destination.is_some() != destination {
-            let expected = if destination { "expected one" } else { "expected none" };
+            let expected = if destination { "expected a destination" } else { "expected no destination" };
             let found = if destination { "no destination" } else { "a destination" };
             wrong(format!("`{name}` has {found}, {expected}"));
         }
         if instruction.comparison.is_some() != info.comparison {
-            let found = if info.comparison { "lacks its comparison" } else { "takes no comparison" };
+            let found = if info.comparison { "lacks its comparison" } else { "cannot have a comparison" };
             wrong(format!("`{name}` {found}"));
         }
     }

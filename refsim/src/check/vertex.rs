@@ -19,17 +19,17 @@ pub(super) fn check(context: &mut Context<'_>) {
             RegisterFile::FogOut => warn(
                 context,
                 (WarningId::FogIsNotBlended, destination.span),
-                "`oFog` blends no fog, since fixed-function fog is not emulated",
+                "`oFog` does not cause fog, because fixed-function fog is not emulated",
                 "blend in the pixel program; only OpenGL's pixel programs can read oFog (as FOGC and fragment.fogcoord)",
             ),
             RegisterFile::PointSizeOut => warn(
                 context,
                 (WarningId::PointsAreNotDrawn, destination.span),
-                "`oPts` changes no pixel, since points are not drawn",
+                "`oPts` has no effect, because points are not drawn",
                 "draw two triangles for each point",
             ),
             RegisterFile::Address if context.version == Version::Vs1_1 && destination.mask != Mask(1) => {
-                context.breach(RuleId::UnsetAddress, destination.span, "`a0` of vs_1_1 has no component but .x");
+                context.breach(RuleId::UnsetAddress, destination.span, "`a0` of vs_1_1 only has the component .x");
             }
             _ => {}
         }

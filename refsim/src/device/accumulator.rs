@@ -12,7 +12,7 @@ impl Rules {
 }
 
 /// The format of products for an accumulator that does not hold all operands. Products are rounded to odd, so a second
-/// rounding, to at least two bits less, equals a single rounding.
+/// rounding to a format of at least two bits less equals a single rounding.
 pub(crate) const PRODUCTS: Format = Format::FP32.with_rounding(Rounding::Odd);
 
 /// Returns `true` if executors can sum products in an accumulator: it holds all numbers of the operands, or it is at

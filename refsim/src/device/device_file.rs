@@ -1,4 +1,4 @@
-//! Device files: devices with other switches, and other formats of registers, storages, sums and single instructions.
+//! Device files: devices with changed switches, and changed formats of registers, storages, sums and instructions.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -170,8 +170,8 @@ impl Profile {
         if let Some(found) = format {
             // Coordinates are single precision.
             let (registers, expected) = match storage {
-                Storage::Coordinates => (Format::FP32, "a format whose numbers single precision has"),
-                _ => (self.rules.format, "a format whose numbers the registers have"),
+                Storage::Coordinates => (Format::FP32, "a format whose numbers single precision holds"),
+                _ => (self.rules.format, "a format whose numbers the registers hold"),
             };
             self.fits(found.for_registers().is_ok() && registers.holds(found), storage.name(), expected, found)?;
         }
@@ -213,7 +213,7 @@ impl Profile {
         self.instruction_formats.set(program, index, format)
     }
 
-    /// Replaces the formats of all instructions of a program; instructions that are not listed have none. Returns
+    /// Replaces the formats of all instructions of a program; unlisted instructions get no format. Returns
     /// `false`, without effect, if [`Self::set_instruction_format`] would for any listed instruction.
     pub fn set_instruction_formats(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
         self.instruction_formats.set_all(program, formats)

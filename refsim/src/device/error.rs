@@ -12,7 +12,7 @@ pub enum DeviceError {
     #[diagnostic(
         code(device::unknown),
         help(
-            "words of its title name a card, too: `Radeon 8500`; `ideal-` takes any number format, for example \
+            "words of a title also identify a card: `Radeon 8500`; any number format can follow `ideal-`, for example \
              `ideal-fp32` or `ideal-s3.12:rtz`"
         )
     )]
@@ -25,7 +25,7 @@ pub enum DeviceError {
     #[error("device `{device}` has no switch `{name}`; expected one of {allowed}")]
     #[diagnostic(code(device::unknown_switch), help("`crossbar devices {device}` lists the switches"))]
     UnknownSwitch { device: String, name: String, allowed: String },
-    /// The switch does not take this value.
+    /// The switch does not have this value.
     #[error("switch `{switch}` of device `{device}`: expected one of {allowed}, found `{value}`")]
     #[diagnostic(code(device::switch_value), help("`crossbar devices {device}` lists the switches"))]
     SwitchValue { device: String, switch: String, value: String, allowed: String },
@@ -33,22 +33,22 @@ pub enum DeviceError {
     #[error("switch `{switch}` of device `{device}` is `{value}`, which its format `{format}` cannot have")]
     #[diagnostic(
         code(device::format_rule),
-        help("leave the switch out, or give the format a rule of its own, `:sat` for example")
+        help("remove the switch, or add the rule to the format, `:sat` for example")
     )]
     FormatRule { device: String, switch: String, value: String, format: Format },
     /// The switch sets a rule of exponents or significands, which fixed point lacks.
     #[error(
-        "switch `{switch}` of device `{device}`: expected registers of floats for `{value}`, whose rule goes by exponents \
-         or significands, found `{format}`"
+        "switch `{switch}` of device `{device}`: expected float registers for `{value}`, whose rule depends on \
+         exponents or significands, found `{format}`"
     )]
     #[diagnostic(
         code(device::needs_floats),
-        help("leave the switch out: exact sums of fixed point need no alignment, and its products no cut")
+        help("remove the switch: fixed-point sums are exact without alignment, and fixed-point products are not cut")
     )]
     NeedsFloats { device: String, switch: String, value: String, format: Format },
     /// The profile's file is malformed.
     #[error("profile `{device}`: {problem}")]
-    #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]
+    #[diagnostic(code(device::profile), help("correct refsim/src/device/profiles/{device}.toml"))]
     Profile { device: String, problem: String },
     /// Registers cannot have a number format.
     #[error(transparent)]
@@ -59,7 +59,7 @@ pub enum DeviceError {
     #[diagnostic(
         code(device::file),
         help(
-            "a device file names a `device`, and may have `format`, `accumulator`, `[switches]`, `[storage]` and \
+            "a device file has a `device`, and may have `format`, `accumulator`, `[switches]`, `[storage]` and \
              `[programs.DIGEST]`"
         )
     )]

@@ -225,7 +225,7 @@ impl Section<'_> {
         let names = self.names(key)?.into_iter();
         let known = |text: String| {
             let found = all.iter().copied().find(|&one| name(one) == text);
-            found.ok_or_else(|| self.problem(key, &format!("nothing is named `{text}`")))
+            found.ok_or_else(|| self.problem(key, &format!("no value has the name `{text}`")))
         };
         names.map(known).collect()
     }

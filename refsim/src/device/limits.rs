@@ -130,7 +130,7 @@ figures! {
 }
 
 impl Limits {
-    /// Step budget of a stage; [`DEFAULT_STEP_BUDGET`] if the device states none.
+    /// Step budget of a stage; [`DEFAULT_STEP_BUDGET`] if the device does not state it.
     pub fn step_budget(&self, stage: Stage) -> u32 {
         let own = match stage {
             Stage::Pixel => self.pixel_step_budget,

@@ -66,8 +66,8 @@ impl Profile {
     /// assert!(Profile::named("ideal-s3.12").is_ok());
     /// ```
     ///
-    /// # Errors [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if the part
-    /// after `ideal-` is not a number format.
+    /// # Errors
+    /// [`DeviceError::UnknownDevice`] with all names, or [`DeviceError::IdealFormat`] if no format follows `ideal-`.
     pub fn named(name: &str) -> Result<Self, DeviceError> {
         if let Some((card, text)) = card_named(name) {
             return Self::from_toml(card, text);
@@ -288,7 +288,7 @@ impl Profile {
     ///
     /// # Errors
     /// [`DeviceError::Profile`] with the reason.
-    #[doc(hidden)] // Public for the tests of what a file must not say.
+    #[doc(hidden)] // Public for tests of invalid files.
     pub fn from_toml(device: &str, text: &str) -> Result<Self, DeviceError> {
         let problem = |problem: String| DeviceError::Profile { device: device.to_owned(), problem };
         let raw = RawProfile::read(text).map_err(problem)?;

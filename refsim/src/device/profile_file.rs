@@ -18,7 +18,7 @@ pub(super) const LIMIT_SWITCHES: [&str; 2] = ["ray-textures", "instruction-slots
 pub(super) struct RawProfile {
     pub(super) name: String,
     pub(super) title: String,
-    /// The card whose figures apply where this file states none.
+    /// The card whose figures apply where this file does not state them.
     pub(super) base: Option<String>,
     pub(super) versions: Option<RawFigure>,
     #[serde(default)]

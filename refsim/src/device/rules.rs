@@ -29,7 +29,7 @@ macro_rules! rules {
             pub(super) fn read(text: impl Fn(&str) -> Option<String>) -> Result<Self, String> {
                 fn value<T: RuleValue>(name: &str, text: Option<String>) -> Result<T, String> {
                     let text = text.ok_or_else(|| format!("rules.{name} is missing"))?;
-                    T::from_text(&text).ok_or_else(|| format!("rules.{name}: `{text}` means nothing"))
+                    T::from_text(&text).ok_or_else(|| format!("rules.{name}: no value of this rule is `{text}`"))
                 }
                 Ok(Self {
                     $($field: value($text, text($text))?,)*

@@ -44,17 +44,17 @@ operations! {
     /// Ray-triangle intersection test.
     RayTriangleTest = "ray-triangle-test", 50, "two cross and four dot products, a division; no source was found";
     /// Visit of a ray tree node by a ray on its way to its bucket.
-    RayTreeNode = "ray-tree-node", 10, "a comparison of one of five coordinates, a miss in the cache now and then; no source was found";
+    RayTreeNode = "ray-tree-node", 10, "a comparison of one of five coordinates, sometimes a cache miss; no source was found";
     /// Insertion of a ray into a bucket, or its transfer to another bucket.
     BucketInsert = "bucket-insert", 25, "six numbers and an index copied; no source was found";
     /// Generation of a ray, by the camera or at a hit.
     RayGenerated = "ray-generated", 40, "a direction and its length; no source was found";
     /// Writing of a ray into the textures of a pass.
-    RayPacked = "ray-packed", 10, "six numbers written one after the other; taken like a result that is read";
+    RayPacked = "ray-packed", 10, "six numbers written in sequence; assumed equal to result-read";
     /// Evaluation of a result read back from the card.
-    ResultRead = "result-read", 10, "an index and a distance kept if nearer; no source was found";
+    ResultRead = "result-read", 10, "an index, and a distance that is kept if nearer; no source was found";
     /// Submission of a vertex with its attributes to the driver.
-    VertexSent = "vertex-sent", 20, "some twenty numbers copied; no source was found";
+    VertexSent = "vertex-sent", 20, "about twenty numbers copied; no source was found";
     /// Gathering of a triangle from the scene for the card.
     TriangleSent = "triangle-sent", 20, "nine numbers gathered; no source was found";
     /// Multiply-add in sums over matrices and vectors.

@@ -74,7 +74,7 @@ pub enum Event {
         bytes: u64,
         /// Synchronisation.
         mode: ReadBackMode,
-        /// Fence of an asynchronous read-back, passed when the last byte has arrived.
+        /// Fence of an asynchronous read-back; it is signalled when the last byte has arrived.
         fence: Option<FenceId>,
     },
     /// The host waits for a fence.

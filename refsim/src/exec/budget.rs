@@ -50,7 +50,7 @@ fn is_partner(program: &Program, at: usize) -> bool {
     program.instructions[at].coissue && before.is_some_and(|i| i.opcode.info().class == OpcodeClass::Arithmetic)
 }
 
-/// Upper bound on the steps of a program: it takes the longer branch, and never leaves a loop early. Exact for programs
+/// Upper bound on the steps of a program: the longer branch counts, and no loop ends early. Exact for programs
 /// without flow control. Takes one pass over the text.
 pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &ResolvedConstants) -> u64 {
     let code = &program.instructions;

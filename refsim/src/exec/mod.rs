@@ -50,7 +50,6 @@ use crate::isa::Program;
 /// register that a version can name.
 pub type CheckedProgram = Checked<Program>;
 
-/// Returns the program.
 pub(crate) fn program(checked: &CheckedProgram) -> &Program {
     checked
 }

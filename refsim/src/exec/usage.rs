@@ -57,8 +57,8 @@ pub(crate) fn registers_delivered(program: &Program) -> Vec<Register> {
     all.filter(|&(_, _, first)| reads.has(first)).map(|(file, n, _)| Register::new(file, n)).collect()
 }
 
-/// Colours that a pixel program writes: bit `i` for `oC#i`. A colour counts as written if an instruction names it, even
-/// if flow control skips it; ps_1_x writes colour 0.
+/// Colours that a pixel program writes: bit `i` for `oC#i`. A colour counts as written even if flow control skips the
+/// instruction that writes it. ps_1_x writes colour 0.
 pub fn colors_written(program: &Program) -> u8 {
     if program.version.is_ps_1_x() {
         return 1;

@@ -20,8 +20,8 @@ use interface::Translation;
 /// `n`.
 ///
 /// # Errors
-/// If the text is not WGSL, or uses a construct without translation; the error has the position. Always without the
-/// feature `wgsl`.
+/// If the text is not WGSL, or uses a construct without translation; the error has the position. Always, if the feature
+/// `wgsl` is off.
 pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
     Ok(translated(text)?.program)
 }
@@ -49,6 +49,6 @@ fn translated(text: &str) -> Result<Translation, Refusal> {
 
 #[cfg(not(feature = "wgsl"))]
 fn translated(_text: &str) -> Result<Translation, Refusal> {
-    Err(Refusal::new("the feature `wgsl` is off, which reads shaders", Default::default())
+    Err(Refusal::new("reading WGSL shaders needs the feature `wgsl`, which is off", Default::default())
         .with_help("build with it: cargo build --release --features wgsl"))
 }

@@ -73,7 +73,7 @@ pub struct OpInfo {
     pub destination: DestinationRule,
     /// Kind of the results.
     pub result: ResultKind,
-    /// `true` if the mnemonic takes a comparison suffix (`_gt _lt _ge _le _eq _ne`).
+    /// `true` if the mnemonic has a comparison suffix (`_gt _lt _ge _le _eq _ne`).
     pub comparison: bool,
     /// Source operands by version, in the order of [`Version`]; `None` where the version lacks the operation.
     sources: [Option<u8>; VERSIONS],

@@ -27,7 +27,7 @@ pub struct ConstantDef {
     pub register: Register,
     /// Its value.
     pub value: ConstantValue,
-    /// Number of instructions before the definition; 0 if the `def` is where it belongs.
+    /// Number of instructions before the definition; 0 in a legal program.
     pub position: usize,
     /// Location in the program text.
     pub span: Span,
@@ -96,7 +96,7 @@ pub struct Declaration {
 pub struct Instruction {
     /// The operation.
     pub opcode: Opcode,
-    /// The comparison, where the operation takes one.
+    /// The comparison, if the operation has one.
     pub comparison: Option<Comparison>,
     /// The destination, if the operation has one.
     pub destination: Option<Destination>,
@@ -110,8 +110,8 @@ pub struct Instruction {
     pub fragment: FragmentPart,
     /// The instruction's own number format, in place of the registers' format and of `_pp` or a precision suffix.
     /// Operands are converted to it, the operation is done in it, and the result is converted to the format of its
-    /// register; a texture instruction's result is rounded to it. The text of a program has none: devices assign
-    /// formats ([`crate::device::InstructionFormats`]).
+    /// register; a texture instruction's result is rounded to it. Program texts contain no such formats: devices assign
+    /// them ([`crate::device::InstructionFormats`]).
     pub format: Option<Format>,
     /// The whole instruction in the program text.
     pub span: Span,
@@ -130,7 +130,7 @@ pub struct Program {
     pub declarations: Vec<Declaration>,
     /// Instructions, including `phase` and flow control.
     pub instructions: Vec<Instruction>,
-    /// Host-set constants without a register number, in the order in which the text names them.
+    /// Host-set constants without a register number, in the order in which the text uses them.
     pub parameters: Vec<Parameter>,
     /// Resources that an `!!ARBfp1.0` program declares or binds, used or not, each with the span where it first occurs.
     pub resources: BTreeMap<ProgramResource, Span>,

@@ -8,7 +8,7 @@ use crate::texture::{TexelFormat, TextureError};
 
 /// The pixel or vertex at which a program failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the fields are what the variants name")]
+#[expect(missing_docs, reason = "the variants explain the fields")]
 pub enum ProgramPlace {
     /// A pixel, by column and row of the targets.
     Pixel { x: u32, y: u32 },
@@ -78,7 +78,7 @@ pub enum MachineError {
     /// A pixel or vertex exceeded the step budget. `instruction` is the index, from 0, of the first instruction beyond
     /// the budget.
     #[error(
-        "{place}: the {version} program made the {budget} steps of its budget and did not end; the next was instruction {}, `{}`",
+        "{place}: the {version} program did not end within its budget of {budget} steps; the next was instruction {}, `{}`",
         instruction + 1, opcode.info().mnemonic
     )]
     StepBudget { place: ProgramPlace, version: Version, instruction: usize, opcode: Opcode, span: Span, budget: u32 },
@@ -89,12 +89,12 @@ pub enum MachineError {
     FloatFilter { sampler: usize, format: TexelFormat, device: String },
     /// Mip maps of a float texture, which the device does not support.
     #[error(
-        "texture has {levels} levels of {format}, `{device}` allows 1 (limits.float_mipmaps); keep each level in a texture of its own"
+        "texture has {levels} levels of {format}, `{device}` allows 1 (limits.float_mipmaps); keep each level in a separate texture"
     )]
     FloatLevels { levels: usize, format: TexelFormat, device: String },
     /// Generation of mip levels of a float texture that the device cannot filter.
     #[error(
-        "texture {number} is {format}, whose mip levels `{device}` cannot generate (limits.{key}); draw each level by a program that reads four texels of the one before, into a texture of its own"
+        "texture {number} is {format}, whose mip levels `{device}` cannot generate (limits.{key}); draw each level by a program that reads four texels of the previous level, into a separate texture"
     )]
     FloatMipmaps { number: usize, format: TexelFormat, device: String, key: &'static str },
     /// Generation of mip levels of a rectangle texture.
@@ -113,14 +113,14 @@ pub enum MachineError {
     /// More `vertices` or `instances` than the limit of a draw.
     #[error("draw has {found} {what}, a draw can have {limit}; split it")]
     TooMany { what: &'static str, found: usize, limit: usize },
-    /// A vertex stream is too short; `what` is `one a vertex` or `one an instance`.
+    /// A vertex stream is too short; `what` is `one per vertex` or `one per instance`.
     #[error("stream of v{register} has {found} entries, the draw needs {needed} ({what})")]
     ShortStream { register: usize, found: usize, needed: usize, what: &'static str },
     /// An attribute register that does not exist.
     #[error("expected an attribute register v0 to v15, found v{register}")]
     NoSuchAttribute { register: usize },
     /// Two streams for the same register.
-    #[error("two streams feed v{register}; leave one out")]
+    #[error("two streams feed v{register}; remove one")]
     StreamTwice { register: usize },
     /// An index is not less than the number of vertices.
     #[error("index {position} is {found}, the draw has {limit} vertices")]

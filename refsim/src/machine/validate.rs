@@ -162,7 +162,7 @@ fn check_streams(call: &DrawCall<'_>) -> Result<(), MachineError> {
             Some(slot) => *slot = true,
         }
         let (needed, what) = match stream.step {
-            StepRate::Vertex => (streams.vertex_count, "one a vertex"),
+            StepRate::Vertex => (streams.vertex_count, "one per vertex"),
             StepRate::Instance => (streams.instance_count, "one per instance"),
         };
         let found = stream.data.len();

@@ -33,7 +33,7 @@ pub enum BlendFactor {
     /// 1 - source alpha
     #[serde(rename = "inverse-source-alpha")]
     InvSrcAlpha,
-    /// Destination alpha; 1 if the target stores none.
+    /// Destination alpha; 1 if the target does not store alpha.
     #[serde(rename = "destination-alpha")]
     DestAlpha,
     /// 1 - destination alpha

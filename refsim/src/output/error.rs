@@ -20,6 +20,6 @@ pub enum OutputError {
     #[error("expected a depth surface of 1 to 16384 pixels per side, found {width}x{height}")]
     DepthExtent { width: u32, height: u32 },
     /// There is no depth format with that name.
-    #[error("expected a depth format as `d16`, `d24`, `d32`, `d32f` or `d24f`, found `{name}`")]
+    #[error("expected a depth format such as `d16`, `d24`, `d32`, `d32f` or `d24f`, found `{name}`")]
     UnknownDepthFormat { name: String },
 }

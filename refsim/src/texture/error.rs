@@ -11,7 +11,7 @@ use crate::texel::TexelFormat;
 #[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum TextureError {
     /// There is no format with that name.
-    #[error("expected a texel format as `rgba8`, `rg16` or `rgba16f`, found `{name}`")]
+    #[error("expected a texel format such as `rgba8`, `rg16` or `rgba16f`, found `{name}`")]
     UnknownFormat { name: String },
     /// An extent is zero, too large, or invalid for the kind of texture.
     #[error("expected {expected} for a {kind} texture, found {width}x{height}x{depth}")]
@@ -26,7 +26,7 @@ pub enum TextureError {
     #[error("expected {expected} {unit} of texel data, found {found}")]
     DataSize { unit: &'static str, expected: usize, found: usize },
     /// Coordinates outside the image.
-    #[error("expected a place inside level {level} of the image, found {what} {found} where {limit} exist")]
+    #[error("expected a position inside level {level} of the image, found {what} {found} of {limit}")]
     Outside { level: u32, what: &'static str, found: u64, limit: u64 },
 }
 

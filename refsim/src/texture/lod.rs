@@ -18,7 +18,7 @@ pub enum Lod {
 /// Computes the level of detail from the coordinates' derivatives `ddx` and `ddy` per pixel (all FP32 bits).
 ///
 /// rho^2 is the larger of the two squared lengths in texels of level 0, `((x*x) + (y*y)) + (z*z)`, where each step is
-/// one FP32 operation; the result is `floor(log2(rho^2) / 2)` on a grid of `2^-fraction_bits` (at most 8), by repeated
+/// one FP32 operation. The result is `floor(log2(rho^2) / 2)` on a grid of `2^-fraction_bits` (at most 8), by repeated
 /// squaring of the significand with 62 fraction bits kept. rho = 0 gives -127, an infinite rho 127, NaN 0. For cube
 /// maps the derivatives are converted to face coordinates by the quotient rule.
 pub fn lod_from_derivatives(
@@ -33,7 +33,7 @@ pub fn lod_from_derivatives(
     let largest = if value::is_nan(along_x) || value::is_nan(along_y) {
         value::NAN
     } else {
-        along_x.max(along_y) // patterns of numbers >= 0 order as the numbers
+        along_x.max(along_y) // patterns of numbers >= 0 have the order of the numbers
     };
     half_log2(largest, fraction_bits.min(8))
 }

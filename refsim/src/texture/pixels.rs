@@ -78,7 +78,7 @@ impl Image {
         encoder.set_color(png::ColorType::Rgba);
         encoder.set_depth(png::BitDepth::Eight);
         let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes));
-        written.expect("an image has at least one texel, and memory takes its four bytes a texel");
+        written.expect("an image has at least one texel, and memory holds its four bytes a texel");
         file
     }
 }

@@ -19,10 +19,10 @@ pub const CPU_ONLY_RAYS_PER_SECOND: u64 = 135_812;
 /// 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error(
-    "expected counted operations with some weight, and some rays at some rate, to calibrate the host on; found a weight \
-     of {weight}, and {rays} rays at {rays_per_second} a second"
+    "expected a weight of the counted operations, a number of rays and a rate above 0, to calibrate the host; found a \
+     weight of {weight}, and {rays} rays at {rays_per_second} a second"
 )]
-#[diagnostic(code(timing::host), help("count the run that the printed figure is of"))]
+#[diagnostic(code(timing::host), help("count the run of the printed figure"))]
 pub struct HostError {
     /// Weighted sum of the counted operations.
     pub weight: u128,

@@ -79,7 +79,7 @@ impl Costs for Model {
 #[error("event {event}: expected a fence that has been set, found fence {} that was not", fence.0)]
 #[diagnostic(code(timing::replay_fence), help("wait for a fence after the read-back that sets it"))]
 pub struct ReplayError {
-    /// Index of the event that names the fence.
+    /// Index of the event that waits for the fence.
     pub event: usize,
     /// The fence.
     pub fence: FenceId,

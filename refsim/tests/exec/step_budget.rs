@@ -90,7 +90,7 @@ fn what_would_never_end_is_an_error_with_its_place() {
         }
     }
     let error = draw(&nested(4), &host(), 1000, ExecutorKind::Batch).0.unwrap_err();
-    insta::assert_snapshot!(error.to_string(), @"pixel (0, 0): the ps_2_a program made the 1000 steps of its budget and did not end; the next was instruction 7, `endrep`");
+    insta::assert_snapshot!(error.to_string(), @"pixel (0, 0): the ps_2_a program did not end within its budget of 1000 steps; the next was instruction 7, `endrep`");
     assert_eq!(ideal("fp32").limits.step_budget(refsim::isa::Stage::Pixel), DEFAULT_STEP_BUDGET);
 }
 

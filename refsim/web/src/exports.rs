@@ -22,7 +22,7 @@ pub extern "C" fn refsim_answer() -> u32 {
 }
 
 /// Answers a request about a shader in WGSL, in the same way. From the presence of this export, `crossbar page` knows
-/// that the module takes shaders.
+/// that the module accepts shaders.
 #[cfg(feature = "wgsl")]
 #[expect(unsafe_code, reason = "an exported name")]
 #[unsafe(no_mangle)]

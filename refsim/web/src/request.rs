@@ -51,7 +51,7 @@ pub(crate) struct Remark {
     /// Line and column, from 1; 0 if there is no position.
     line: usize,
     column: usize,
-    /// Range in the text, in UTF-16 units, as scripts count.
+    /// Range in the text, in UTF-16 units, as in JavaScript.
     start: usize,
     end: usize,
 }
@@ -169,7 +169,7 @@ impl Answer {
         let text = request.text.as_str();
         if text.len() > MAX_TEXT {
             let message = format!("expected a program of at most {MAX_TEXT} bytes, found {}", text.len());
-            return Err(vec![Remark::about_nothing(message, "use `crossbar run` for longer ones")]);
+            return Err(vec![Remark::about_nothing(message, "use `crossbar run` for longer programs")]);
         }
         let failed =
             |error: MachineError| vec![Remark::about_nothing(error.to_string(), "change the program or the device")];

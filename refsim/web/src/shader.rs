@@ -115,7 +115,7 @@ impl ShaderAnswer {
         let text = request.text.as_str();
         if text.len() > MAX_TEXT {
             let message = format!("expected a shader of at most {MAX_TEXT} bytes, found {}", text.len());
-            return Err(vec![Remark::about_nothing(message, "use `crossbar run` for longer ones")]);
+            return Err(vec![Remark::about_nothing(message, "use `crossbar run` for longer shaders")]);
         }
         let profile = Device { device: "ideal-fp32".to_owned(), format: Some(request.format.clone()) }.profile()?;
         let (program, interface) = wgsl_with_interface(text).map_err(|refusal| vec![refused(text, &refusal)])?;
@@ -171,8 +171,8 @@ fn without_textures(text: &str, program: &Checked<Program>) -> Result<(), Vec<Re
         .iter()
         .find(|instruction| instruction.sources.iter().any(|source| source.register.file == RegisterFile::Sampler));
     reads.map_or(Ok(()), |instruction| {
-        let message = "the page has no textures, and this reads one".to_owned();
-        let help = "`crossbar run` draws it, with a case that names a picture (docs/wgsl.md)".to_owned();
+        let message = "the page has no textures, and this shader reads one".to_owned();
+        let help = "`crossbar run` draws it, with a case that gives a picture (docs/wgsl.md)".to_owned();
         Err(vec![Remark::new(text, instruction.span, message, help)])
     })
 }

@@ -99,7 +99,7 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         let (low, high) = (SINGLE_PIVOT + self.low as f32, SINGLE_PIVOT + self.high as f32);
         let (mut sum, mut offset) = (0i32, 0i32);
         for k in 0..N {
-            #[expect(clippy::disallowed_methods, reason = "one rounding is meant, and the host has the instruction")]
+            #[expect(clippy::disallowed_methods, reason = "it must round once, and the host has the instruction")]
             let product = (a[k] as f32 * unit).mul_add(b[k] as f32, SINGLE_PIVOT);
             let above = if product > low { product } else { low };
             let fitted = if above < high { above } else { high };

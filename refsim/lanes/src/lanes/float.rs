@@ -44,7 +44,7 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     pole: f32,
     /// The result if an operand is NaN or infinite: NaN, or 0 in formats without NaN.
     nan: f32,
-    /// Addend that turns -0 into +0 in encodings without -0; else -0.
+    /// Addend that turns -0 into +0 in encodings without -0; in other encodings -0.
     zero: f64,
     nv: bool,
     guarded: bool,
@@ -90,7 +90,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
                 (SINGLE, AWAY) => bounded,
                 (SINGLE, ZERO) => format.overflow != Overflow::Nv30,
                 (SINGLE, _) => true,
-                // A product just below the infinite power of two may reach it by the first of two roundings.
+                // The first of two roundings may round a product up to the power of two that overflows.
                 (_, DOWN) if format.overflow == Overflow::Nv30 => true,
                 _ => exp_bits == 8,
             },

@@ -22,8 +22,8 @@ pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 /// `2p <= q` bits: they are exact. Sums: `q >= 2p + 2` (Figueroa 1995). Quotients: a rounding depends on how the
 /// quotient compares with numbers `k u`, `k < 2^(p+1)`, which are numbers of the format or midpoints. A quotient `A/B`
 /// of integers below `2^p` that differs from `k u` does so by at least one part in `k B < 2^(2p+1) < 2^q`, so the
-/// host's quotient compares with it in the same way. A host never overflows or underflows where the format doesn't: it
-/// has more exponents.
+/// host's quotient compares with it in the same way. The host never overflows or underflows where the format doesn't:
+/// its range of exponents is at least as large.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IeeeLane<const PATH: u8> {
     /// General, slower arithmetic, for conversions and rare cases.
@@ -33,7 +33,7 @@ pub(crate) struct IeeeLane<const PATH: u8> {
     /// Pivot minus the binade, in exponent bits. The pivot is 1.5 times the number whose last place is the format's
     /// unit.
     pivot: (u32, u64),
-    /// Factor that overflows exactly the numbers above the format's largest to infinity; `shrink` is its reciprocal.
+    /// Factor by which exactly the numbers above the format's largest overflow to infinity; `shrink` is its reciprocal.
     stretch: (f32, f64),
     shrink: (f32, f64),
 }
@@ -65,7 +65,7 @@ impl<const PATH: u8> IeeeLane<PATH> {
     /// Rounds a single precision number into the format.
     ///
     /// A pivot, 1.5 times `2^(23-m)` times the binade, is added and subtracted: the sum stays in one binade for either
-    /// sign, and its last place is the format's unit. A zero takes the sign of the number that became zero. Infinities
+    /// sign, and its last place is the format's unit. A zero has the sign of the number that became zero. Infinities
     /// and NaN are unchanged, because their pivot is a finite number.
     #[inline(always)]
     fn narrow_single(&self, x: f32) -> f32 {

@@ -7,11 +7,11 @@ use super::round::{AWAY, EVEN, UP, ZERO};
 ///
 /// - Nearest even is `floor((v + half - 1 + odd) / 2^count)`: ties move up only from odd floors.
 /// - Nearest away adds half a unit, less one where `v` is negative.
-/// - Toward zero rounds up where `v` is negative; up rounds up everywhere.
+/// - Rounding toward zero rounds up where `v` is negative; rounding up does so everywhere.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shift {
     pub(super) count: u32,
-    /// Half a unit, and the mask of the dropped bits; zero if there are none.
+    /// Half a unit, and the mask of the dropped bits; zero if no bits are dropped.
     pub(super) half: i64,
     pub(super) dropped: i64,
     pub(super) more: i64,
@@ -51,7 +51,7 @@ pub(super) fn by_pivot(x: f64) -> f64 {
 pub(super) struct IntegerRounding {
     /// Mask of the bits that are kept: all, or all but the sign.
     sign: u64,
-    /// Thresholds of the difference: one is subtracted below `lower`, and added from `upper` on.
+    /// Thresholds of the difference: 1 is subtracted below `lower`, and added from `upper` on.
     pub(super) lower: f64,
     pub(super) upper: f64,
 }

@@ -157,14 +157,14 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn frc(&self, a: Self::T) -> Self::T;
     fn neg(&self, a: Self::T) -> Self::T;
     fn abs(&self, a: Self::T) -> Self::T;
-    /// `a 2^shift`, `shift` within -3 to 3.
+    /// `a 2^shift`, with `shift` from -3 to 3.
     #[inline(always)]
     fn scale(&self, a: Self::T, shift: i32) -> Self::T {
         self.round_f64(self.to_f64(a) * pow2(shift))
     }
     /// `a` clamped to [0, 1].
     fn saturate(&self, a: Self::T) -> Self::T;
-    /// `a > 1/2`, the half exact; false for NaN.
+    /// `a > 1/2` with an exact 1/2; false for NaN.
     fn above_half(&self, a: Self::T) -> bool;
     /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
     fn factor(&self, a: Self::T, b: Self::T) -> Self::T;

@@ -63,7 +63,7 @@ struct Adder {
     nearest: bool,
 }
 
-/// A number unpacked: signed magnitude, of 11 bits at most, and exponent.
+/// An unpacked number: signed magnitude of at most 11 bits, and exponent.
 type Unpacked = (i16, i16);
 /// Sixteen numbers with the same k: magnitudes, then exponents.
 type Lanes = [[i16; WIDTH]; 2];

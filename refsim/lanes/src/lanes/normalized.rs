@@ -1,4 +1,4 @@
-//! Lane arithmetic of normalized integers `nI.F`, in host integers: codes that count in units of `1 / (2^F - 1)`.
+//! Lane arithmetic of normalized integers `nI.F`, in host integers: codes in units of `1 / (2^F - 1)`.
 
 use super::fixed::FixedLane;
 use super::float::GeneralLane;
@@ -12,8 +12,8 @@ use crate::num::Format;
 /// The arithmetic of one normalized format: `WRAP` is true if overflow wraps. Operations that do not depend on the unit
 /// are integer operations on the codes.
 ///
-/// Codes have 16 bits and the denominator `D` 8 at most: products of two codes fit an `i32`, and sums of four products
-/// a double.
+/// Codes have at most 16 bits, and the denominator `D` at most 8: products of two codes fit an `i32`, and sums of four
+/// products a double.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NormalizedLane<const WRAP: bool> {
     codes: FixedLane<false, WRAP>,
@@ -49,8 +49,8 @@ impl<const WRAP: bool> NormalizedLane<WRAP> {
 
     /// Computes `v / D`, rounded, and saturated or wrapped, for integers of at most 33 bits.
     ///
-    /// The nearest integer is right: quotients lie at least `1 / 2D` from the middle between two, and the double errs
-    /// by less than `2^-20`. The remainder is exact and shows on which side of the quotient it lies.
+    /// The nearest integer is right: quotients lie at least `1 / 2D` from the midpoint of two integers, and the error
+    /// of the double is below `2^-20`. The remainder is exact and shows on which side of the quotient it lies.
     #[inline(always)]
     fn over(&self, v: f64) -> i32 {
         let value = self.product.magnitude(v);
@@ -96,9 +96,9 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
 
     /// Twice the number of units is exact for doubles of up to 44 bits. For a longer result (a quotient, rounded to odd
     /// or to nearest) the error is less than one part in `2^51`; a result that close to an integer is treated as that
-    /// integer. In 255ths, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In other
-    /// units that is proved for channels of up to 8 bits; sums of 16-bit channels come closer with a probability of
-    /// about one in a billion.
+    /// integer. In units of 1/255, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In
+    /// other units that is proved for channels of up to 8 bits; sums of 16-bit channels come closer with a probability
+    /// of about one in a billion.
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
         const NEAR: f64 = 1.0 / (1u64 << 50) as f64;
@@ -131,8 +131,8 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     /// Both the unit and its product with a factor are rounded, so the relative error is at most `2^-23`, and the error
-    /// is less than `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product
-    /// avoids the middle between two codes, so the sum with the pivot is rounded to the right code.
+    /// is less than `2^-10` where the result is in range. That is less than `1 / 2D`, the least distance of the exact
+    /// product from a midpoint of two codes, so the sum with the pivot is rounded to the right code.
     #[inline(always)]
     fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
         self.codes.fused_sum_of(self.reciprocal as f32, a, b)

@@ -1,9 +1,9 @@
 //! Rounding to odd: a double that a later rounding turns into the same number as the exact real result.
 //!
-//! A real number is rounded to odd by truncating it and setting the last bit if anything was cut off. Rounding that
-//! once more into a format of `p` bits, in any direction, equals rounding the real number itself, if the intermediate
-//! has `p + 2` bits (Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved algorithms using
-//! rounding to odd", theorem 2). A double has 53 bits and formats here at most 24; no result of two such operands
+//! A real number is rounded to odd by truncating it and setting the last bit if anything was cut off. Rounding the
+//! result once more into a format of `p` bits, in any direction, equals rounding the real number itself, if the
+//! intermediate has `p + 2` bits (Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved algorithms
+//! using rounding to odd", theorem 2). A double has 53 bits and formats here at most 24; no result of two such operands
 //! leaves the exponent range of a double. So every arithmetic operation below is done in doubles and its error, known
 //! exactly, moves the last bit.
 

@@ -7,9 +7,9 @@ use super::simd::SimdLevel;
 /// Interpretation of a slot's bits as a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
-    /// Bits of a single of the host.
+    /// Bits of a host single.
     Float,
-    /// Bits of a single of the host, whose subnormal numbers count as zeros: the word of a card's unit.
+    /// Bits of a host single, whose subnormal numbers count as zeros: the word of a card's unit.
     Word,
     /// An integer, in units of `1 / units`.
     Integer {
@@ -40,7 +40,7 @@ impl Reading {
 
     /// Truncates `scale` times the number clamped to [0, 1] (NaN gives 0), plus `half`.
     ///
-    /// Exact for products of 24 bits by 24, and where the quotient by `units` is an integer.
+    /// Exact for products of 24 by 24 bits, and where the quotient by `units` is an integer.
     #[inline(always)]
     pub fn to_steps(self, raw: u32, scale: f64, half: f64) -> u32 {
         match self {

@@ -40,7 +40,7 @@ macro_rules! rounder {
             flush: $float,
             /// The largest finite number.
             max: $float,
-            /// Smallest exact magnitude that becomes infinite, by sign; NaN if none does.
+            /// Smallest exact magnitude that becomes infinite, by sign; NaN if no magnitude does.
             infinite: [$float; 2],
             /// Result above the range: infinity, or NaN in encodings without infinity.
             beyond: $float,
@@ -69,7 +69,7 @@ macro_rules! rounder {
                     (Overflow::Nv30, _) => [(pow2(emax) * 2.0) as $float; 2],
                     (_, Rounding::NearestEven | Rounding::NearestAway) => {
                         let half = (exact_max + last / 2.0) as $float;
-                        // If `short`, the largest number is even: to nearest even, a tie above it rounds down to it.
+                        // If `short`, the largest number is even, so nearest even rounds a tie above it down.
                         let stays = short && format.rounding == Rounding::NearestEven;
                         [<$float>::from_bits(half.to_bits() + <$bits>::from(stays)); 2]
                     }

@@ -61,7 +61,7 @@ impl SimdLevel {
     }
 }
 
-/// Runs `work` with AVX2 and FMA, or gives it back on a processor without. That version contains no copy of `work`, so
+/// Runs `work` with AVX2 and FMA; on a processor without them, returns it. That version contains no copy of `work`, so
 /// each level is compiled once.
 #[multiversion(targets("x86_64+avx2+fma"))]
 fn avx2<R, F: FnOnce() -> R>(work: F) -> Result<R, F> {

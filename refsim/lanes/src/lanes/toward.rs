@@ -2,9 +2,9 @@
 //! moved by one unit where its error has the wrong sign.
 //!
 //! Truncating twice, to 24 bits and then to fewer, equals truncating once; so does rounding down twice. Rounding to
-//! nearest away after a truncation sees the same ties. So these functions serve every format of up to 24 bits. A finite
-//! sum or product that is too large for single precision is the largest number if truncated, and the host's result if
-//! rounded to nearest; a reciprocal is infinite.
+//! nearest away after a truncation finds the same ties. So these functions serve every format of up to 24 bits. A
+//! finite sum or product that is too large for single precision is the largest number if truncated, and the host's
+//! result if rounded to nearest; a reciprocal is infinite.
 
 use super::round::{AWAY, DOWN};
 
@@ -113,10 +113,7 @@ fn error(a: f32, b: f32, p: f32) -> f32 {
 
 /// `a b + c`, rounded once.
 #[inline(always)]
-#[expect(
-    clippy::disallowed_methods,
-    reason = "fused on every host, in software where need be: its one rounding is wanted"
-)]
+#[expect(clippy::disallowed_methods, reason = "fused on every host, if necessary in software: it must round once")]
 fn multiply_add(a: f32, b: f32, c: f32) -> f32 {
     a.mul_add(b, c)
 }

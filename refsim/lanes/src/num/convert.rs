@@ -13,8 +13,8 @@ use super::unpack::{Unpacked, nan_bits, unpack, zero};
 /// stays infinity; in fixed point it saturates with `OVERFLOW`, even in formats where finite numbers wrap; in floats
 /// without infinity it overflows as finite numbers do.
 ///
-/// Single floats are converted to the format of a card's unit unchanged; from it, subnormals become zeros. A NaN of
-/// GT200 becomes the canonical NaN of the other format.
+/// Single floats are converted to the format of a card's unit unchanged. In the other direction, subnormals become
+/// zeros, and a NaN of GT200 becomes the canonical NaN of the other format.
 pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     let to = to.into();
     // Including NaN and subnormals.

@@ -33,9 +33,9 @@ pub struct DecimalError {
 /// Parses a decimal number and rounds it once into the format.
 ///
 /// Grammar: an optional sign, then `inf`, `infinity` or `nan` in any case, or digits with at most one point and an
-/// optional exponent (`e` or `E`, optional sign, digits). Any length and any exponent are accepted. `inf` and `nan`
-/// become the end of the range (`OVERFLOW`) and zero (`INVALID`) in fixed point. In a wrapping format numbers of
-/// magnitude `2^86` and more saturate.
+/// optional exponent (`e` or `E`, optional sign, digits). Any length and any exponent are accepted. In fixed point,
+/// `inf` becomes the end of the range (`OVERFLOW`), and `nan` becomes zero (`INVALID`). In a wrapping format numbers
+/// of magnitude `2^86` and more saturate.
 ///
 /// # Errors
 /// [`DecimalError`] if the text doesn't follow the grammar.

@@ -9,7 +9,7 @@
 //! | `n3.8` | normalized integers: sign, 3 integer and 8 fraction bits, two's complement, in units of 1/255 |
 //! | `e5m10` | float: sign, 5 exponent and 10 mantissa bits, as IEEE 754 lays them out |
 //! | `e4m3fn` `e4m3fnuz` | floats without infinity: one NaN of either sign, or one NaN and one zero ([`Encoding`]) |
-//! | `e8m0` | powers of two, without sign and zero: scales of blocks ([`block`]) |
+//! | `e8m0` | powers of two, without sign or zero: scales of blocks ([`block`]) |
 //! | `ps14` `fx12` `fp16` `fp24` `fp32` `bf16` | `s3.12` `s1.10` `e5m10` `e7m16` `e8m23` `e8m7` |
 //! | `:rne` `:rna` `:rtz` | rounding: nearest even (default), nearest away, toward zero |
 //! | `:rdn` `:rup` `:rod` | rounding: down, up, to odd |
@@ -25,7 +25,7 @@
 //! encodes it ([`from_parts`] is its public form). Numbers of a normalized format are integers over
 //! [`Format::denominator`]: operations and rounding count in units of the format, and only `round_quotient` divides.
 //! Operations with intermediate roundings have separate names: [`ops::mad`] has two roundings, [`ops::fused_mad`] has
-//! one, and [`ops::dot`] takes the order of summation.
+//! one, and [`ops::dot`] has the order of summation as a parameter.
 //!
 //! [`NumberOperation`] enumerates the operations.
 //!

@@ -1,7 +1,7 @@
 //! Table of the arithmetic operations: operands and definition of each.
 //!
-//! The batch executor and the shader generator refer to operations by it; `crossbar alu` and the GPU probe evaluate
-//! them through it.
+//! The batch executor and the shader generator refer to operations by this table; `crossbar alu` and the GPU probe
+//! evaluate operations through it.
 
 use super::env::Env;
 use super::flags::Outcome;

@@ -45,7 +45,7 @@ pub enum FormatError {
     #[diagnostic(
         code(num::format_range),
         help(
-            "fixed point goes up to 32 bits, normalized integers up to 16, floats from `e2m1` to `e8m23`, those without infinity to `e7m23fn`"
+            "fixed point has up to 32 bits, normalized integers up to 16; floats are `e2m1` to `e8m23`, or up to `e7m23fn` without infinity"
         )
     )]
     Range {
@@ -62,7 +62,7 @@ pub enum FormatError {
     )]
     #[diagnostic(
         code(num::format_suffix),
-        help("leave the suffix out to take the default (fixed: rne, sat; float: rne, inf, keep, ieee)")
+        help("remove the suffix to get the default (fixed: rne, sat; float: rne, inf, keep, ieee)")
     )]
     Suffix {
         /// The whole string.
@@ -77,7 +77,7 @@ pub enum FormatError {
     #[diagnostic(
         code(num::format_kind),
         help(
-            "fixed point knows :sat and :wrap; floats know :inf, :sat, :nvovf, :keep, :ftz, :ieee, :nv and, in e8m23, the units of cards"
+            "fixed point allows :sat and :wrap; floats allow :inf, :sat, :nvovf, :keep, :ftz, :ieee, :nv and, in e8m23, the units of cards"
         )
     )]
     WrongKind {
@@ -105,11 +105,11 @@ pub enum FormatError {
     },
     /// A card's unit, combined with a format in which it does not compute.
     #[error(
-        "number format `{text}`: expected `e8m23:{found}`, with :rtz at most (GT200), found another layout or more rules"
+        "number format `{text}`: expected `e8m23:{found}`, with no other suffix than :rtz (GT200), found another layout or more suffixes"
     )]
     #[diagnostic(
         code(num::format_unit),
-        help("units of cards compute in single precision, by rules of their own; leave the other suffixes out")
+        help("units of cards compute in single precision, by their own rules; remove the other suffixes")
     )]
     Unit {
         /// The whole string.
@@ -118,11 +118,11 @@ pub enum FormatError {
         found: &'static str,
     },
     /// A format that registers cannot have.
-    #[error("number format `{text}`: no format of registers and instructions, since {reason}")]
+    #[error("number format `{text}`: registers and instructions cannot have this format, because {reason}")]
     #[diagnostic(
         code(num::format_registers),
         help(
-            "devices take every layout but `e8m0`, every rounding but `:rst`, and `:rod` for floats; `crossbar alu` \
+            "devices allow every layout but `e8m0`, every rounding but `:rst`, and `:rod` only for floats; `crossbar alu` \
              computes with all of them"
         )
     )]
@@ -142,7 +142,7 @@ impl Format {
     /// [`FormatError::Registers`].
     pub fn for_registers(self) -> Result<Format, FormatError> {
         let reason = match self.rounding {
-            Rounding::Stochastic(_) => "executors that work on many pixels at once number no operations",
+            Rounding::Stochastic(_) => "it needs numbered operations, and executors compute many pixels at once",
             Rounding::Odd if !matches!(self.kind, FormatKind::Float { .. }) => {
                 "rounding to odd is for intermediate results, which are floats"
             }
@@ -196,7 +196,7 @@ fn parse_layout(text: &str, layout: &str) -> Result<Format, FormatError> {
             return Format::float(x, m)
                 .filter(|_| x < 8)
                 .map(|format| format.with_encoding(encoding))
-                .ok_or_else(|| range("2 to 7 exponent and 1 to 23 mantissa bits without infinity"));
+                .ok_or_else(|| range("2 to 7 exponent and 1 to 23 mantissa bits in floats without infinity"));
         }
     }
     if let Some((x, m)) = split_counts(layout, 'e', 'm') {

@@ -30,8 +30,8 @@ pub enum Rounding {
     Down,
     /// Toward plus infinity (`:rup`).
     Up,
-    /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. A result with this
-    /// rounding can be rounded again into a format of two bits less, in any direction, as if it were exact.
+    /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. Such a result can be
+    /// rounded again to a format with at least two bits less, in any direction, as if it were exact.
     Odd,
     /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the sum of two integers, the first 32 bits
     /// of the discarded fraction and this word, is at least `2^32`. A fraction of 1/4 is rounded up for 1/4 of all
@@ -72,7 +72,7 @@ pub enum Overflow {
     /// residue and saturate.
     Wrap,
     /// IEEE 754 (`:inf`): infinity or the largest finite number, according to the rounding direction. Encodings without
-    /// infinity have NaN in its place, and encodings without both the largest finite number. Floats only.
+    /// infinity give NaN in its place, and encodings without both the largest finite number. Floats only.
     Infinity,
     /// `NV_fragment_program` (`:nvovf`): exact magnitudes of `2^(emax+1)` and more become infinity, smaller magnitudes
     /// at most the largest finite number, in every rounding direction. Floats only.
@@ -95,8 +95,8 @@ pub enum Specials {
     /// Direct3D 9 on IEEE 754 values (`:ieee`): `min` is `a < b ? a : b` and `max` is `a >= b ? a : b`, so a NaN as
     /// either operand gives `b`; saturation turns NaN into 0.
     Ieee,
-    /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN, and take -0 for less than +0;
-    /// saturation keeps NaN.
+    /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN, and treat -0 as less than +0; saturation keeps
+    /// NaN.
     Nv,
 }
 
@@ -134,7 +134,7 @@ impl Unit {
         !matches!(self, Self::Ideal)
     }
 
-    /// Returns `true` for vertex units, whose instructions combine several steps of others.
+    /// Returns `true` for vertex units, whose instructions combine several steps of other units.
     pub const fn is_vertex_unit(self) -> bool {
         matches!(self, Self::Nv2x | Self::Nv3xLegacy | Self::Nv3x)
     }

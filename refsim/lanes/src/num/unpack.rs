@@ -46,7 +46,7 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
             let field = (bits >> man_bits) & ((1 << exp_bits) - 1);
             let man = bits & ((1 << man_bits) - 1);
             if format.is_nan(bits) {
-                // Encodings with a single NaN have a quiet NaN.
+                // The NaN of an encoding with a single NaN is quiet.
                 let quiet = format.encoding != Encoding::Ieee || man >> (man_bits - 1) != 0;
                 return Unpacked::Nan { signaling: !quiet };
             }

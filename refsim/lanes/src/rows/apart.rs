@@ -1,4 +1,4 @@
-//! Operations that are compiled once for all formats, or only for the kind of numbers.
+//! Operations that are compiled once for all formats, or once per kind of numbers.
 
 use super::code::LaneCode;
 use super::masks::{combine_patterns, compare_numbers};

@@ -4,7 +4,7 @@ use super::code::LaneCode;
 use crate::lanes::{LANES, LaneRow, RegisterNumber, SimdLevel, TRUE};
 use crate::num::NumberOperation as Op;
 
-/// Comparisons: masks of `a < b`, `a <= b` and `a == b`, and the bitwise or of `a` and the mask of `b < c`; also a
+/// Comparisons: masks of `a < b`, `a <= b` and `a == b`, and the bitwise or of `a` and the mask of `b < c`; and a
 /// selection: `b` if `0 <= a`, else `c`. Comparisons with NaN are false.
 #[inline(never)]
 pub(super) fn compare_numbers<T: RegisterNumber>(

@@ -31,7 +31,7 @@ impl std::ops::DerefMut for Aligned {
 /// The slots of one batch, and a scratch row in which results are computed before it is swapped with their slot's row.
 #[derive(Clone, Debug)]
 pub struct Slots {
-    #[expect(clippy::vec_box, reason = "a row changes places with the spare one by its pointer, not by its 1 KiB")]
+    #[expect(clippy::vec_box, reason = "rows are swapped by pointer, not by copying 1 KiB")]
     pub(super) rows: Vec<Box<Aligned>>,
     pub(super) scratch: Box<Aligned>,
     /// Uniform values of slots for constants and given values.

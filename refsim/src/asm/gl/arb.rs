@@ -90,7 +90,7 @@ impl<'a> Parser<'a> {
                 if self.hint.replace(text).is_none_or(|before| before == text) {
                     return Ok(());
                 }
-                ("one precision hint".to_owned(), "a program can have one of the two")
+                ("one precision hint".to_owned(), "a program can have only one of the two hints")
             }
             text => match FogMode::from_name(text) {
                 Some(mode) => {
@@ -98,7 +98,7 @@ impl<'a> Parser<'a> {
                     if self.build.fog.replace(fog).is_none_or(|before| before.mode == mode) {
                         return Ok(());
                     }
-                    ("one fog option".to_owned(), "a program can have one kind of fog")
+                    ("one fog option".to_owned(), "a program can have only one fog option")
                 }
                 None => (all(), "other options are not supported"),
             },
@@ -111,7 +111,7 @@ impl<'a> Parser<'a> {
             let start = self.cursor.peek().span.start;
             let name = self.new_name()?;
             if self.temporaries >= MAX_TEMPORARIES {
-                return Err(self.cursor.unexpected("fewer temporaries", "256 names of temporaries are the most"));
+                return Err(self.cursor.unexpected("fewer temporaries", "declare at most 256 temporaries"));
             }
             let temporary = Name::Register(Register::new(RegisterFile::Temp, self.temporaries));
             self.bind(&temporary, start);
@@ -126,7 +126,7 @@ impl<'a> Parser<'a> {
     /// Parses the rest of `ATTRIB name = fragment.color` or `OUTPUT name = result.color`.
     fn bound(&mut self, what: fn(&mut Self) -> Parsed<Register>) -> Parsed<()> {
         let name = self.new_name()?;
-        self.cursor.expect("=", "write `=` and what the name means")?;
+        self.cursor.expect("=", "write `=` and the attribute or output")?;
         let start = self.cursor.peek().span.start;
         let register = what(self)?;
         if !is_written(register.file) {
@@ -160,7 +160,7 @@ impl<'a> Parser<'a> {
         let opcode = mnemonic.spelling.opcode;
         let info = opcode.info();
         let Some(count) = info.source_count(Version::ArbFp1_0) else {
-            let help = "it belongs to !!FP1.0";
+            let help = "this instruction belongs to !!FP1.0";
             return Err(token.error(ErrorKind::UnknownOpcode, "an instruction", help));
         };
         let mut fragment = FragmentPart::default();
@@ -198,17 +198,17 @@ impl<'a> Parser<'a> {
         let register = self.register()?;
         let (mut swizzle, mut letters) = (Swizzle::IDENTITY, None);
         for (i, slot) in swizzle.0.iter_mut().enumerate() {
-            self.cursor.expect(",", "SWZ chooses four components, and its operand has no swizzle of its own")?;
+            self.cursor.expect(",", "the operand of SWZ has four selectors, separated by commas, and no swizzle")?;
             fragment.negate |= u8::from(operand::sign(&mut self.cursor)) << i;
             let token = self.cursor.next();
             let known =
                 ["xyzw01", "rgba01"].iter().enumerate().find_map(|(set, all)| Some((set, all.find(token.text)?)));
             let Some((set, component)) = known.filter(|_| token.text.len() == 1) else {
-                let help = "each component of SWZ is chosen on its own";
+                let help = "SWZ has one selector per component, each of one letter or digit";
                 return Err(token.error(ErrorKind::Swizzle, "x, y, z, w, 0 or 1", help));
             };
             if component < 4 && *letters.get_or_insert(set) != set {
-                let help = "the two sets of letters, xyzw and rgba, don't mix";
+                let help = "letters of xyzw and of rgba cannot be mixed";
                 return Err(token.error(ErrorKind::Swizzle, "a letter of the same set as the others", help));
             }
             *slot = component as u8;
@@ -247,7 +247,7 @@ impl<'a> Parser<'a> {
     fn unit(&mut self) -> Parsed<Source> {
         let token = self.cursor.next();
         if token.text != "texture" {
-            return Err(unknown(token, "texture[0] to texture[15]", "texture image units are numbered"));
+            return Err(unknown(token, "texture[0] to texture[15]", "write the number of the texture image unit"));
         }
         let mut number = 0;
         if self.cursor.accept_mark("[") {
@@ -288,7 +288,7 @@ impl<'a> Parser<'a> {
         self.cursor.next();
         let mut name = self.names.get(token.text).cloned();
         if let Some(Name::Array(all)) = name {
-            self.cursor.expect("[", "an element of an array is chosen by its number")?;
+            self.cursor.expect("[", "select an element of the array by its number")?;
             let place = self.cursor.peek();
             let number = operand::index(&mut self.cursor, MAX_PARAMETER)?;
             self.cursor.expect("]", "close the brackets")?;
@@ -319,7 +319,7 @@ impl<'a> Parser<'a> {
             _ => Err(unknown(
                 token,
                 "a temporary, fragment.*, program.*, state.*, a constant or a name of one",
-                "names are made by TEMP, ATTRIB and PARAM before they are used",
+                "declare names with TEMP, ATTRIB or PARAM before their first use",
             )),
         }
     }

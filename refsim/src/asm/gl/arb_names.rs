@@ -11,7 +11,7 @@ impl<'a> Parser<'a> {
     pub(super) fn parameter(&mut self) -> Parsed<()> {
         let name = self.new_name()?;
         if !self.cursor.accept_mark("[") {
-            self.cursor.expect("=", "a parameter stands for a constant or for something that the host sets")?;
+            self.cursor.expect("=", "a parameter is a constant or a value that the host sets")?;
             let start = self.cursor.peek().span.start;
             let value = self.element()?;
             self.bind(&value, start);
@@ -39,7 +39,7 @@ impl<'a> Parser<'a> {
                 counted.span,
                 format!("{count} elements"),
                 format!("{} elements", all.len()),
-                "an array has as many elements as it says",
+                "the number of elements differs from the size in the declaration",
             ));
         }
         self.names.insert(name, Name::Array(all));
@@ -79,7 +79,7 @@ impl<'a> Parser<'a> {
             "env" => FIRST_ENVIRONMENT,
             _ => return Err(unknown(token, "local or env", "parameters are program.local[0] or program.env[0]")),
         };
-        self.cursor.expect("[", "parameters are numbered")?;
+        self.cursor.expect("[", "write the number of the parameter")?;
         let (first, last) = self.range(many, MAX_PARAMETER)?;
         Ok((Register::new(RegisterFile::Constant, base + first), base + last))
     }
@@ -92,7 +92,7 @@ impl<'a> Parser<'a> {
             let place = self.cursor.peek();
             last = operand::index(&mut self.cursor, most)?;
             if last < first {
-                return Err(unknown(place, "a number not below the first", "a range goes up"));
+                return Err(unknown(place, "a number not below the first", "the range is reversed"));
             }
         }
         let help = if many { "close the brackets" } else { "close the brackets; a range needs an array" };

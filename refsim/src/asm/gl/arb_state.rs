@@ -160,9 +160,9 @@ impl<'a> Parser<'a> {
         Ok((first..=last).map(|row| StateBinding::MatrixRow(matrix, form, row)).collect())
     }
 
-    /// Parses an index in brackets; if `many`, also a range.
+    /// Parses an index in brackets or, if `many`, a range of indices.
     fn rows(&mut self, many: bool) -> Parsed<(u8, u8)> {
-        self.cursor.expect("[", "rows are numbered")?;
+        self.cursor.expect("[", "write the number of the row")?;
         let (first, last) = self.range(many, 3)?;
         Ok((first as u8, last as u8))
     }

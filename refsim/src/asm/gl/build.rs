@@ -41,8 +41,8 @@ impl Build {
                 ErrorKind::ValueCount,
                 span,
                 format!("at most {MAX_LITERALS} different constants in the text"),
-                "another one",
-                "set constants from outside, as `p[0]` or `program.local[0]`",
+                "one more",
+                "let the host set constants, as `p[0]` or `program.local[0]`",
             ));
         }
         let register = Register::new(RegisterFile::Constant, FIRST_LITERAL + count as u16);

@@ -174,7 +174,7 @@ impl<'a> Parser<'a> {
     fn unit(&mut self) -> Parsed<Source> {
         let token = self.cursor.next();
         let number = operand::numbered(token, "TEX", MAX_REGISTER)
-            .unwrap_or_else(|| Err(unknown(token, "TEX0 to TEX15", "texture image units are numbered")))?;
+            .unwrap_or_else(|| Err(unknown(token, "TEX0 to TEX15", "write the number of the texture image unit")))?;
         Ok(plain(Register::new(RegisterFile::Sampler, number), token.span))
     }
 
@@ -221,7 +221,7 @@ impl<'a> Parser<'a> {
             (None, None) => Err(unknown(
                 token,
                 "R#, H#, f[...], p[#], a name or a constant",
-                "names are made by DEFINE and DECLARE before they are used",
+                "declare names with DEFINE or DECLARE before their first use",
             )),
         }
     }
@@ -236,7 +236,7 @@ impl<'a> Parser<'a> {
             "COL1" => Register::new(RegisterFile::Input, 1),
             _ => {
                 let number = operand::numbered(token, "TEX", 7).unwrap_or_else(|| {
-                    Err(unknown(token, "WPOS, COL0, COL1, FOGC or TEX0 to TEX7", "these are interpolated"))
+                    Err(unknown(token, "WPOS, COL0, COL1, FOGC or TEX0 to TEX7", "these are attributes"))
                 })?;
                 Register::new(RegisterFile::Texture, number)
             }

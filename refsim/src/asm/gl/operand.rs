@@ -25,7 +25,7 @@ pub(super) fn statements<'a, P>(
             cursor(parser).next();
             let after = cursor(parser).peek();
             if after.kind != TokenKind::End {
-                let help = "only comments may follow `END`: all else would never be read";
+                let help = "only comments may follow `END`";
                 cursor(parser).record(after.error(ErrorKind::UnexpectedToken, "the end of the text", help));
             }
             break;
@@ -185,8 +185,7 @@ pub(super) fn mnemonic(token: Token<'_>, suffixes: bool) -> Parsed<Mnemonic> {
         let close = Spelling::ALL
             .iter()
             .find(|s| token.text.len() >= 2 && s.name.starts_with(&token.text[..first(token.text)]));
-        let help =
-            close.map_or("see the extension's table of instructions".to_owned(), |s| format!("{} is one", s.name));
+        let help = close.map_or("see the extension's table of instructions".to_owned(), |s| format!("try {}", s.name));
         SyntaxError::new(ErrorKind::UnknownOpcode, token.span, "an instruction", quote(token.text), help)
     })
 }

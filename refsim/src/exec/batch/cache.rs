@@ -1,6 +1,6 @@
 //! Caches of decoded programs and textures, shared by draws and by the machines that use an executor. The least
-//! recently used entry is evicted. Keys are compared in full, so a hit equals a fresh decoding. Also pools buffers for
-//! reuse by workers.
+//! recently used entry is evicted. Keys are compared in full, so a hit equals a fresh decoding. A pool keeps buffers of
+//! workers for reuse.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -61,7 +61,7 @@ impl<T> Default for Pool<T> {
 }
 
 impl<T> Pool<T> {
-    /// Takes an object that is `fit`, if there is one.
+    /// Takes an object that satisfies `fit`, if there is one.
     pub(crate) fn take(&self, fit: impl Fn(&T) -> bool) -> Option<T> {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let found = idle.iter().rposition(fit)?;

@@ -18,7 +18,7 @@ pub enum GpuError {
         found: Vec<String>,
     },
     /// Several adapters match the name.
-    #[error("`{asked}` names {} GPU adapters: {}; give more of the name", .found.len(), .found.join(", "))]
+    #[error("`{asked}` matches {} GPU adapters: {}; write more of the name", .found.len(), .found.join(", "))]
     AmbiguousAdapter {
         /// The given name.
         asked: String,
@@ -34,7 +34,7 @@ pub enum GpuError {
         reason: String,
     },
     /// A shader or a pipeline is invalid: a bug in the shader generator.
-    #[error("GPU shader `{entry}` is refused, which is a fault of this program: {reason}")]
+    #[error("GPU shader `{entry}` is rejected, a bug of this program: {reason}")]
     Shader {
         /// The entry point.
         entry: String,
@@ -43,7 +43,7 @@ pub enum GpuError {
     },
     /// The adapter has too little memory.
     #[error(
-        "GPU adapter `{adapter}` gives buffers of up to {most} bytes, found {asked}: use smaller targets and textures, or the batch executor"
+        "GPU adapter `{adapter}` allows buffers of {most} bytes, {asked} are needed: use smaller targets and textures, or the batch executor"
     )]
     Memory {
         /// Name of the adapter.

@@ -244,7 +244,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// Reads a texel for one lane, rounded to the storage format of texels, and counts the read. An unbound sampler
-    /// returns (0, 0, 0, 1), in `!!FP1.0` zeros.
+    /// returns (0, 0, 0, 1), or zeros in `!!FP1.0`.
     pub(super) fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Components {
         let (format, storage) = (self.prepared.format, self.prepared.rules.storage.of(Storage::Texels));
         let image = self.prepared.sampler(stage).map(|binding| binding.image.format());

@@ -30,9 +30,9 @@ pub const ENTRY: &str = "pixel_main";
 pub const INVOCATIONS: usize = 64;
 /// Words of `counts`: outcomes of fragments and reads per sampler, two words each; then [`UNFINISHED`] and [`CUT`].
 pub const COUNT_WORDS: usize = 46;
-/// Index in `counts` of the invocations with work left: if any, the dispatch must be repeated.
+/// Index in `counts` of the number of invocations with work left: unless it is 0, the dispatch must be repeated.
 pub const UNFINISHED: usize = 44;
-/// Index in `counts` of the invocations whose loops the driver terminated: if any, the results are invalid.
+/// Index in `counts` of the number of invocations whose loops the driver ended: unless it is 0, results are invalid.
 pub const CUT: usize = 45;
 /// Rows of `scratch` after the program's registers: inputs, outputs, and saved state of an invocation.
 pub const EXTRA_ROWS: usize = IN_OUT_ROWS + SAVED_ROWS;

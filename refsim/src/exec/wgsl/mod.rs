@@ -6,7 +6,7 @@
 //! - [`number`]: arithmetic in every format of [`crate::num`]. [`texture`]: texture reads from a storage buffer.
 //!   [`program`]: pixel programs and interpolation. [`parts`]: reduction of the text to the parts that a draw uses.
 //!
-//! Values have the \"raw\" representation of the batch executor: a fixed-point number is a sign-extended two's
+//! Values have the "raw" representation of the batch executor: a fixed-point number is a sign-extended two's
 //! complement integer; a float of any format is the binary32 pattern of the same number, and NaN is always
 //! `0x7fc00000`.
 

@@ -14,7 +14,7 @@ fn k_less(a: vec2<u32>, b: vec2<u32>) -> bool {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
 }
 
-// a * b modulo 2^64, also for a signed a.
+// a * b modulo 2^64, even for a signed a.
 fn k_scale(a: vec2<u32>, b: u32) -> vec2<u32> {
     let low = n_mul32(a.x, b).yx;
     return vec2<u32>(low.x, low.y + a.y * b);

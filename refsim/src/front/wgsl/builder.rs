@@ -54,12 +54,12 @@ impl Builder {
         let most = MAX_INSTRUCTIONS;
         Err(match self.loops.last() {
             Some(span) => Refusal::new(
-                format!("this loop has no end that is known, or is unrolled into more than {most} instructions"),
+                format!("this loop has no known end, or is unrolled into more than {most} instructions"),
                 *span,
             )
             .with_help("bound loops by constants: `for (var i = 0; i < 16; i++)`"),
-            None => Refusal::new(format!("the shader becomes more than {most} instructions"), self.span)
-                .with_help("a function is put in line at each of its calls: call less, or compute less"),
+            None => Refusal::new(format!("the shader has more than {most} instructions after translation"), self.span)
+                .with_help("functions are inlined at every call: shorten the shader, or use fewer calls"),
         })
     }
 

@@ -27,7 +27,7 @@ impl<'a> Translator<'a> {
     pub(super) fn value(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result {
         match self.entry(frame, handle)? {
             Meaning::Value(value) if !value.is_empty() => Ok(value),
-            _ => self.builder.refuse("this expression has no value that is translated"),
+            _ => self.builder.refuse("the value of this expression is not translated"),
         }
     }
 
@@ -127,7 +127,7 @@ impl<'a> Translator<'a> {
             Expression::Math { fun: MathFunction::Transpose, arg, .. } => {
                 let value = operand(self, *arg)?;
                 let TypeInner::Matrix { columns, rows, .. } = self.type_of(frame, *arg) else {
-                    return self.builder.refuse("only matrices are transposed");
+                    return self.builder.refuse("only matrices can be transposed");
                 };
                 let (columns, rows) = (*columns as usize, *rows as usize);
                 (0..columns * rows).map(|at| value[at % columns * rows + at / columns]).collect()
@@ -159,10 +159,10 @@ impl<'a> Translator<'a> {
             return Ok(());
         }
         let message = "expected uniform control flow, found a condition that differs between fragments: neighbors of this \
-                       fragment may not get here";
+                       fragment may not execute this";
         Err(Refusal::new(message, self.builder.span).with_help(
-            "call it in front of the condition, or use textureSampleGrad or textureSampleLevel; the directive \
-             `diagnostic(off, derivative_uniformity);` lets it pass",
+            "call it before the condition, or use textureSampleGrad or textureSampleLevel; the directive \
+             `diagnostic(off, derivative_uniformity);` allows it",
         ))
     }
 
@@ -221,7 +221,7 @@ impl<'a> Translator<'a> {
         let whole = self.entry(frame, base)?;
         let found = usize::try_from(index).ok().and_then(|index| part(self.module, inner, index));
         let Some((start, count)) = found else {
-            return self.builder.refuse(format!("index {index} lies outside"));
+            return self.builder.refuse(format!("index {index} is out of range"));
         };
         match whole {
             Meaning::Value(value) if start + count <= value.len() => {
@@ -236,7 +236,7 @@ impl<'a> Translator<'a> {
 
     fn load(&mut self, pointer: &Meaning) -> Result {
         let Meaning::Pointer { slot, offset, length, path } = pointer else {
-            return self.builder.refuse("only variables are read");
+            return self.builder.refuse("only variables can be read");
         };
         self.accesses.insert((*slot, *path, false));
         match self.variables.get(slot).and_then(|value| value.get(*offset..*offset + *length)) {
@@ -259,10 +259,10 @@ impl<'a> Translator<'a> {
             ..
         } = &function.expressions[handle]
         else {
-            return self.builder.refuse("only textureSample, textureSampleGrad and textureSampleLevel of level 0");
+            return self.builder.refuse("only textureSample and its forms Grad and Level (level 0) are translated");
         };
         let Meaning::Texture(unit) = self.entry(frame, *image)? else {
-            return self.builder.refuse("only textures that are variables of the module are read");
+            return self.builder.refuse("a texture must be a variable of the module");
         };
         let at = self.value(frame, *coordinate)?;
         let gradient = match level {
@@ -273,7 +273,7 @@ impl<'a> Translator<'a> {
             SampleLevel::Zero => Some([(); 2].map(|()| vec![Component::Float(0); 2])),
             SampleLevel::Exact(level) => match self.value(frame, *level)?[..] {
                 [Component::Float(0)] => Some([(); 2].map(|()| vec![Component::Float(0); 2])),
-                _ => return self.builder.refuse("textureSampleLevel is translated for level 0.0 alone"),
+                _ => return self.builder.refuse("textureSampleLevel is only translated for level 0.0"),
             },
             SampleLevel::Gradient { x, y } => Some([self.value(frame, *x)?, self.value(frame, *y)?]),
             SampleLevel::Bias(_) => {

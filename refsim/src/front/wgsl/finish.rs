@@ -113,8 +113,8 @@ pub(super) fn numbered(instructions: &mut [Instruction]) -> Result<(), Refusal> 
 }
 
 fn full(span: Span) -> Refusal {
-    let message = format!("the shader keeps more numbers at a time than {TEMPORARIES} vectors hold");
-    Refusal::new(message, span).with_help("compute later what is used later, or draw in passes")
+    let message = format!("the shader needs more live numbers than {TEMPORARIES} vectors hold");
+    Refusal::new(message, span).with_help("compute values just before their use, or split the shader into passes")
 }
 
 /// Finds `width` adjacent free components, in the fullest temporary that has them.

@@ -49,7 +49,7 @@ pub(super) fn translate(text: &str) -> Result<Translation, Refusal> {
         match work.map(thread::ScopedJoinHandle::join) {
             Ok(Ok(program)) => program,
             Ok(Err(panic)) => resume_unwind(panic),
-            Err(_) => Err(Refusal::new("the system has no thread with room for the translation", Span::default())),
+            Err(_) => Err(Refusal::new("the operating system could not start a thread", Span::default())),
         }
     })
 }
@@ -62,7 +62,7 @@ fn translated(text: &str) -> Result<Translation, Refusal> {
     let info = Validator::new(ValidationFlags::all(), CAPABILITIES).validate(&module);
     let info = info.map_err(|error| {
         let span = error.spans().next().and_then(|(span, _)| place(*span)).unwrap_or_default();
-        Refusal::new(first_cause(error.as_inner()), span).with_help("the text is no valid WGSL")
+        Refusal::new(first_cause(error.as_inner()), span).with_help("the text is not valid WGSL")
     })?;
     let fragments: Vec<usize> =
         (0..module.entry_points.len()).filter(|i| module.entry_points[*i].stage == ShaderStage::Fragment).collect();
@@ -97,7 +97,7 @@ fn parsed(text: &str) -> Result<Module, Refusal> {
         let (span, label) = error.labels().next().map(|(span, label)| (place(span), label)).unwrap_or_default();
         let is_news = |note: &&str| !note.is_empty() && *note != "see msg" && !error.message().contains(note);
         let notes: Vec<&str> = std::iter::once(label).chain(error.notes()).filter(is_news).collect();
-        let help = if notes.is_empty() { "the text is no valid WGSL".to_owned() } else { notes.join("; ") };
+        let help = if notes.is_empty() { "the text is not valid WGSL".to_owned() } else { notes.join("; ") };
         Refusal::new(error.message(), span.unwrap_or_default()).with_help(help)
     })
 }
@@ -141,18 +141,18 @@ impl Translator<'_> {
         };
         let register = match binding {
             Binding::Location { interpolation: Some(Interpolation::Flat | Interpolation::Linear), .. } => {
-                return self.builder.refuse("inputs are interpolated with perspective");
+                return self.builder.refuse("only perspective interpolation is translated");
             }
             Binding::Location { location: location @ 0..8, .. } => {
                 Register::new(RegisterFile::Texture, *location as u16)
             }
             Binding::BuiltIn(BuiltIn::Position { .. }) => Register::new(RegisterFile::WindowPosition, 0),
-            Binding::Location { .. } => return self.builder.refuse("inputs are @location(0) to @location(7)"),
-            Binding::BuiltIn(_) => return self.builder.refuse("of builtin inputs only the position is translated"),
+            Binding::Location { .. } => return self.builder.refuse("inputs must be @location(0) to @location(7)"),
+            Binding::BuiltIn(_) => return self.builder.refuse("position is the only builtin input that is translated"),
         };
         let list = scalars(self.module, inner).unwrap_or_default();
         if list.is_empty() || list.len() > 4 || list.iter().any(|scalar| scalar.kind != naga::ScalarKind::Float) {
-            return self.builder.refuse("inputs are f32, f16 and vectors of them");
+            return self.builder.refuse("inputs must be f32, f16 or vectors of these");
         }
         if let Binding::Location { location, .. } = binding {
             let (width, half) = (list.len(), is_half(list.first().copied()));
@@ -199,7 +199,7 @@ impl Translator<'_> {
                 Binding::BuiltIn(BuiltIn::FragDepth) => {
                     self.builder.output(Register::new(RegisterFile::DepthOut, 0), 0b0100, &part[..1])?;
                 }
-                _ => return refused("outputs are @location(0) and frag_depth"),
+                _ => return refused("only the outputs @location(0) and frag_depth are translated"),
             }
         }
         let mut instructions = finish::without_unused(self.builder.instructions);

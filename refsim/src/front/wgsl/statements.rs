@@ -201,7 +201,7 @@ impl<'a> Translator<'a> {
                 target.copy_from_slice(value);
                 Ok(())
             }
-            None => self.builder.refuse("only whole variables, members, elements and components are written"),
+            None => self.builder.refuse("only whole variables, members, elements and components can be written"),
         }
     }
 
@@ -234,8 +234,8 @@ impl<'a> Translator<'a> {
         Ok(())
     }
 
-    /// Executes a block where two conditions hold. Returns the mask of fragments that reach its end, and `true` if none
-    /// has left.
+    /// Executes a block where two conditions hold. Returns the mask of fragments that reach its end, and `true` if no
+    /// fragment has left.
     fn path(
         &mut self,
         frame: &mut Frame<'a>,
@@ -293,7 +293,7 @@ impl<'a> Translator<'a> {
         };
         match exit(self) {
             Some(exit) => exit.0 = Some(joined),
-            None => return self.builder.refuse("nothing to leave here"),
+            None => return self.builder.refuse("there is no loop or switch to leave here"),
         }
         self.live = Component::Bool(false);
         Ok(())

@@ -44,13 +44,13 @@ queue_figures! {
     /// Host time to submit a clear, in picoseconds.
     clear_ps = 500_000 "ps" "no source was found";
     /// Host time to submit a draw, in picoseconds.
-    draw_ps = 1_000_000 "ps" "no source was found; about a million draws a second when nothing else is done";
+    draw_ps = 1_000_000 "ps" "no source was found; about a million draws a second without other work";
     /// Host time to submit a read-back, without the transfer, in picoseconds.
-    read_back_ps = 2_000_000 "ps" "no source was found; taken like an upload";
+    read_back_ps = 2_000_000 "ps" "no source was found; assumed equal to an upload";
     /// Host time to start waiting for a fence, in picoseconds.
-    finish_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
+    finish_fence_ps = 200_000 "ps" "no source was found; assumed equal to a change of state";
     /// Commands that the queue holds before the host has to wait; at least 1.
-    commands = 256 "command" "no source was found; a command buffer of some KiB";
+    commands = 256 "command" "no source was found; a command buffer of a few KiB";
     /// Number of draws by which the front end may be ahead of the draw in the pixel pipelines.
     draws_ahead = 4 "draw" "no source was found; set-up keeps some primitives ready";
 }

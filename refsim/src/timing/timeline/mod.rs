@@ -200,7 +200,7 @@ impl Timeline {
         &self.spans
     }
 
-    /// All waits; waits of one unit are in order of time.
+    /// All waits; the waits of each unit are in order of time.
     pub fn waits(&self) -> &[Wait] {
         &self.waits
     }

@@ -79,13 +79,13 @@ fn what_has_no_levels_is_refused() {
     let rectangle = image(TexelFormat::Rgba8, TextureKind::Rectangle, [4, 4, 1], 1);
     insta::assert_snapshot!(message(&mut card, rectangle), @"texture 1 is a rectangle, which has no mip levels; make it a 2-D texture");
     let float = image(TexelFormat::Rgba16f, TextureKind::D2, [4, 4, 1], 1);
-    insta::assert_snapshot!(message(&mut card, float), @"texture 2 is rgba16f, whose mip levels `nv35` cannot generate (limits.float_mipmaps); draw each level by a program that reads four texels of the one before, into a texture of its own");
+    insta::assert_snapshot!(message(&mut card, float), @"texture 2 is rgba16f, whose mip levels `nv35` cannot generate (limits.float_mipmaps); draw each level by a program that reads four texels of the previous level, into a separate texture");
     // R300 has float textures with levels, but cannot filter them.
     let mut r300 = Machine::new(Profile::named("r300").unwrap(), ExecutorKind::Scalar);
     let float = image(TexelFormat::Rgba16f, TextureKind::D2, [4, 4, 1], 3);
     assert!(message(&mut r300, float).contains("(limits.float_filtering)"));
     let float = card.create_target_with_levels(TexelFormat::Rgba32f, 4, 4, 3).unwrap_err();
-    insta::assert_snapshot!(float, @"texture has 3 levels of rgba32f, `nv35` allows 1 (limits.float_mipmaps); keep each level in a texture of its own");
+    insta::assert_snapshot!(float, @"texture has 3 levels of rgba32f, `nv35` allows 1 (limits.float_mipmaps); keep each level in a separate texture");
     assert!(matches!(card.create_target_with_levels(TexelFormat::Bgra8, 4, 4, 4), Err(MachineError::Texture(_))));
     let released = card.create_target(TexelFormat::Bgra8, 4, 4).unwrap();
     card.release_texture(released).unwrap();

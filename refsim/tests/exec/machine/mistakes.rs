@@ -63,7 +63,7 @@ fn every_mistake_has_its_error() {
     let one = |register, step| AttributeStream { register, step, data: &data };
     let both = vec![one(1, StepRate::Instance), one(1, StepRate::Instance)];
     for (streams, vertex_count, instance_count, expected) in [
-        (vec![one(0, StepRate::Vertex)], 4, 2, "has 3 entries, the draw needs 4 (one a vertex)"),
+        (vec![one(0, StepRate::Vertex)], 4, 2, "has 3 entries, the draw needs 4 (one per vertex)"),
         (vec![one(16, StepRate::Instance)], 4, 2, "found v16"),
         (both, 4, 2, "two streams feed v1"),
         (Vec::new(), 0, usize::MAX, "instances, a draw can have 16777216"),

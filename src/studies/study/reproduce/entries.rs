@@ -1,4 +1,4 @@
-//! The list of entries, and a unit of work of each system for benches.
+//! The list of entries, and the timed work of each system for benches.
 
 use strum::VariantArray as _;
 
@@ -44,14 +44,14 @@ pub const ENTRIES: &[ReproduceEntry] = entries! {
     RayEngine ray_engine::figure_7::findings, "ray-engine-figure-7",
         "Tests per second by number of triangles (Ray Engine, figure 7)";
     RayEngine ray_engine::table_1::findings, "ray-engine-tables-1-2",
-        "Rays per second in five scenes, and the card's share (Ray Engine, tables 1 and 2)";
+        "Rays per second in five scenes, and the share of rays on the card (Ray Engine, tables 1 and 2)";
     RayEngine ray_engine::table_3::findings, "ray-engine-table-3",
-        "Speed-ups by card, asynchronous read-back, infinitely fast card (Ray Engine, table 3)";
+        "Speed-ups with a card, asynchronous read-back, or an infinitely fast card (Ray Engine, table 3)";
     RayEngine ray_engine::table_4::findings, "ray-engine-table-4",
         "Speed-up by triangles per GPU cell (Ray Engine, table 4)";
     RayEngine ray_engine::table_5::findings, "ray-engine-table-5", "Speed-up by rays per pass (Ray Engine, table 5)";
     Radiosity radiosity::figure_3::findings, "radiosity-figure-3",
-        "Jacobi and Gauss-Seidel, residual by iteration (radiosity, figure 3)";
+        "Residual of Jacobi and Gauss-Seidel by iteration (radiosity, figure 3)";
     Radiosity radiosity::rates::findings, "radiosity-rates",
         "29.7 iterations/s and 141 MFLOP/s on a GeForce FX 5900 Ultra (radiosity, section 3.1)";
     Radiosity radiosity::figure_4::findings, "radiosity-figure-4",
@@ -61,7 +61,7 @@ pub const ENTRIES: &[ReproduceEntry] = entries! {
     Subsurface subsurface::table_1::findings, "subsurface-table-1",
         "Time of pass 2, and frame rates locked to a display (subsurface scattering, table 1)";
     Subsurface subsurface::frames::findings, "subsurface-frames",
-        "Passes 1 and 3, displayed frames, 40 frames per second, 9 s for links (subsurface scattering, sections 4.3 and 5, table 1, figure 7)";
+        "Times of passes, displayed frame rates, and 9 s to compute links (subsurface scattering, sections 4.3 and 5, table 1, figure 7)";
     Cpca cpca::appendix::findings, "cpca-appendix", "Errors of projections onto the hemisphere (CPCA, appendix)";
     Cpca cpca::section_6, "cpca-section-6", "Storage, registers and host work of compressed transfer (CPCA, section 6)";
     Cpca cpca::figure_2::findings, "cpca-figure-2" recorded, "Squared error by storage (CPCA, figure 2)";
@@ -81,7 +81,7 @@ pub const ENTRIES: &[ReproduceEntry] = entries! {
     Cpca cpca::table_1::findings, "cpca-table-1" recorded, "Errors and frame rates of seven signals (CPCA, table 1)";
     Cpca cpca::coherence::findings, "cpca-coherence" recorded, "Overdraw of clusters (CPCA, table of section 7)";
     AllFrequency all_frequency::counts::findings, "all-frequency-counts",
-        "Sizes, segments, equation 12 and Table 1 from sizes alone (all-frequency transfer, sections 1 and 4 to 7)";
+        "Sizes, segments, and the part of Table 1 that follows from sizes (all-frequency transfer, sections 1 and 4 to 7)";
     AllFrequency all_frequency::factors::findings, "all-frequency-factors",
         "Errors of reflectance factors and of spherical harmonics (all-frequency transfer, section 3)";
     AllFrequency all_frequency::figures::findings, "all-frequency-figures" recorded,
@@ -93,7 +93,7 @@ pub const ENTRIES: &[ReproduceEntry] = entries! {
     BiScale bi_scale::figure_8::findings, "bi-scale-figure-8" recorded,
         "Cost of more local directions (bi-scale transfer, figure 8)";
     BiScale bi_scale::figures::findings, "bi-scale-figures" recorded,
-        "Transfer compared with ray casting, errors by cause (bi-scale transfer, figures 1 and 5)";
+        "Transfer compared with ray casting; errors by cause (bi-scale transfer, figures 1 and 5)";
     BiScale bi_scale::frames::findings, "bi-scale-frames",
         "Frame rates for new views and new light (bi-scale transfer, tables I and II)";
     BiScale bi_scale::table_1::findings, "bi-scale-table-1" recorded,
@@ -101,7 +101,7 @@ pub const ENTRIES: &[ReproduceEntry] = entries! {
     BiScale bi_scale::table_2::findings, "bi-scale-table-2" recorded,
         "Biclusters of bunnies (bi-scale transfer, table II)";
     BiScale bi_scale::figure_6::findings, "bi-scale-figure-6" recorded,
-        "Biclusters of a chair, and bytes of other ways to store its transfer (bi-scale transfer, figure 6)";
+        "Biclusters of a chair, and the size of its transfer in other formats (bi-scale transfer, figure 6)";
 };
 
 /// Returns the entries with these names, and the entries of papers with these names, in the order of [`ENTRIES`]; all
@@ -119,9 +119,9 @@ pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, StudyError> {
     Ok(ENTRIES.iter().filter(chosen).copied().collect())
 }
 
-/// Times work as in rows, for benches in modelled time: intersections of the Ray Engine's kernels, a Jacobi iteration,
-/// the three passes of subsurface scattering, and frames of the systems of compressed transfer. Fails if a card rejects
-/// the work.
+/// Returns the modelled times of work that rows judge, for benches: intersections of the Ray Engine's kernels, a Jacobi
+/// iteration, the three passes of subsurface scattering, and frames of the systems of compressed transfer. Fails if a
+/// card rejects the work.
 pub fn timed() -> Result<Vec<TimedWork>, StudyError> {
     let mut all = ray_engine::radeon_8500::timed_tests()?;
     all.push(radiosity::timed()?);

@@ -16,7 +16,7 @@ pub struct EntryFindings {
     pub text: Vec<String>,
     /// Printed values of the paper, each with ours.
     pub rows: Vec<PaperRow>,
-    /// Open questions whose answers would explain rows outside their bounds.
+    /// Open questions whose answers could explain rows outside their bounds.
     pub questions: Vec<&'static str>,
     /// Further tables.
     pub tables: Vec<Table>,
@@ -54,7 +54,7 @@ pub struct ReproduceEntry {
 }
 
 impl ReproduceEntry {
-    /// Computes the entry. Rows that are expressions of printed values come first, then the rows of its code.
+    /// Computes the entry. Rows that are expressions of printed values come first, then those that its code computes.
     pub(super) fn run(&self, shared: &Shared) -> Result<EntryFindings, StudyError> {
         let (mut rows, found) = (equations(self.id)?, (self.work)(shared)?);
         rows.extend(found.rows);

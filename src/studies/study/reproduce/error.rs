@@ -7,10 +7,10 @@ use refsim::timing::TimingError;
 
 use crate::study::StudyError;
 
-/// Help for errors that no input causes.
+/// Help for errors that are bugs of the program, not of its input.
 const BUG: &str = "this is a bug: please report it with the command line";
 
-/// Error in the data of the papers' printed figures: malformed, or a figure is missing.
+/// Error for data of the papers' printed figures that is malformed, or that lacks a figure.
 pub(super) fn papers_error(reason: &str) -> StudyError {
     StudyError::new("reproduce::papers", format!("printed figures of the papers: {reason}")).with_help(BUG)
 }
@@ -34,7 +34,7 @@ pub(super) fn no_time(error: TimingError) -> StudyError {
     StudyError::coded("reproduce::timing", error)
 }
 
-/// Returns a value that an entry requires, or the error for its absence from a profile.
+/// Returns a value of a profile that an entry requires; fails if the profile lacks it.
 pub(super) fn figure(profile: &Profile, name: &'static str, value: Option<u64>) -> Result<f64, StudyError> {
     let missing = || {
         let what = format!("device `{}` has no figure `{name}`, which this entry needs", profile.name);

@@ -1,12 +1,12 @@
 //! Reproduction of the papers' printed values: one file per entry, each a list of rows with tables and charts.
 //!
 //! The papers' values, their origins and the bounds of the judged values are dated data ([`figures`]). Every row has
-//! one of these values, and ours with the printed values that it depends on, which determine the verdict. A row outside
-//! its bound counts as missed, unless a sweep of the same run over something that the paper leaves open reaches the
-//! printed value ([`Sweep`]), or the paper contradicts itself and our value agrees with one of its values
+//! one of these values, our value, and the printed values on which ours depends; the verdict follows from these. A row
+//! outside its bound is missed, with two exceptions: a sweep of the same run over something that the paper leaves open
+//! reaches the printed value ([`Sweep`]), or the paper contradicts itself and our value agrees with one of its values
 //! ([`Contradiction`]).
 //!
-//! Entries whose models take minutes to hours at full size have the rows of recorded runs ([`EntryRecord`]).
+//! Entries whose models take minutes to hours at full size take their rows from recorded runs ([`EntryRecord`]).
 
 mod all_frequency;
 mod bi_scale;
@@ -65,9 +65,9 @@ pub struct Parameters {
     pub full_size: bool,
 }
 
-/// Computes entries, one after the other; entries with a record ([`recorded`]) only at full size. Renderings and runs
-/// that several entries of a paper need are made once. `progress` is called with the name of each entry. Fails with the
-/// error of the first failing entry, or if a record is malformed.
+/// Computes entries, one after the other; if an entry has a record ([`recorded`]), it is computed only at full size.
+/// Renderings and runs that several entries of a paper need are made once. `progress` is called with the name of each
+/// entry. Fails with the error of the first failing entry, or if a record is malformed.
 pub fn reproduce(
     entries: &[ReproduceEntry],
     full_size: bool,

@@ -21,7 +21,7 @@ pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
         counts(&[("Met only because the printed value is rounded", of(&needs_rounding))]),
         counts(&[
             ("Used for calibration, so not evidence", rows.len() - evidence.len()),
-            ("missed even so", count(&rows, |row| row.is_calibrated() && row.verdict() == RowVerdict::Missed)),
+            ("of these, missed", count(&rows, |row| row.is_calibrated() && row.verdict() == RowVerdict::Missed)),
         ]),
     ];
     sentences.into_iter().flatten().for_each(|sentence| all.conclusion(sentence));
@@ -74,13 +74,13 @@ fn count(rows: &[&PaperRow], of: impl Fn(&PaperRow) -> bool) -> usize {
     rows.iter().filter(|row| of(row)).count()
 }
 
-/// Rows whose printed value did not determine a constant.
+/// Rows whose printed value did not determine a constant of a model.
 fn chose_none(found: &Reproduced) -> Vec<&PaperRow> {
     rows(found).filter(|row| !row.is_calibrated()).collect()
 }
 
-/// Number of rows whose printed value did not determine a constant, and their numbers by verdict; `None` without such
-/// rows.
+/// Sentence about rows whose printed value did not determine a constant of a model: how many rows there are, and how
+/// many have each verdict. `None` if there are no rows.
 fn judged(rows: &[&PaperRow]) -> Option<String> {
     let of = |verdict: RowVerdict| (count(rows, |row| row.verdict() == verdict), verdict);
     let parts = RowVerdict::VARIANTS.iter().map(|verdict| of(*verdict)).filter(|(count, _)| *count > 0);
@@ -94,13 +94,13 @@ fn judged(rows: &[&PaperRow]) -> Option<String> {
     (!rows.is_empty()).then(|| format!("Of {all} not used for calibration, {parts}"))
 }
 
-/// Formats the tally of the rows whose printed value did not determine a constant, and how many of them are recorded.
+/// Formats the tally of the rows whose printed value did not determine a constant, and the number of recorded ones.
 pub fn evidence_line(found: &Reproduced) -> String {
     let rows = chose_none(found);
     format!("{}; recorded at full size: {}", judged(&rows).unwrap_or_default(), count(&rows, is_recorded))
 }
 
-/// Number of missed rows by class; `None` if there are none.
+/// Number of missed rows by cause; `None` if no row is missed for a known cause.
 fn classes(rows: &[&PaperRow]) -> Option<String> {
     let of = |class: MissClass| (count(rows, |row| row.missed() == Some(class)), class);
     let counts = MissClass::VARIANTS.iter().copied().map(of).filter(|(count, _)| *count > 0);
@@ -110,5 +110,5 @@ fn classes(rows: &[&PaperRow]) -> Option<String> {
 
 fn differ(rows: &[&PaperRow]) -> Option<String> {
     let names: Vec<&str> = rows.iter().filter(|row| row.differs()).map(|row| row.target.id.as_str()).collect();
-    (!names.is_empty()).then(|| format!("Not as recorded: {}.", names.join(", ")))
+    (!names.is_empty()).then(|| format!("Values that differ from their records: {}.", names.join(", ")))
 }

@@ -1,6 +1,6 @@
 //! The six papers.
 
-/// Paper, in the order of the systems; displayed with its name in sentences.
+/// Paper, in the order of the systems; displayed with the name that sentences use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::VariantArray)]
 pub enum Paper {
     /// Carr, Hall and Hart 2002.

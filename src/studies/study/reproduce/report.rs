@@ -91,7 +91,7 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
         }
         table
     };
-    [of("Predicted and counted", false), of("Calibrated: no evidence", true)]
+    [of("Predicted and counted values", false), of("Calibrated values: not evidence", true)]
 }
 
 /// Table of notes: origins of values that are not printed, inputs of calibration, ranges that confine values,
@@ -133,7 +133,7 @@ pub fn notes(found: &Reproduced) -> Table {
     table
 }
 
-/// Table of printed figures without a row, each with the reason, for papers that have a row in `found`.
+/// Table of the printed figures that have no row, each with the reason, for papers that have a row in `found`.
 fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     let mut table = Table::of("Printed figures without a row", "figure what place value unit reason");
     let has_row = |figure: &&PaperFigure| all(found).any(|(_, row)| row.target.paper == figure.paper);
@@ -168,16 +168,16 @@ fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
 fn as_recorded(found: &Reproduced) -> bool {
     !all_rows(found).any(PaperRow::differs)
 }
-
-const HOW: &str = "Each row compares a figure of a paper with our value. The figure is printed, implied by printed figures, or inferred by us. \
-    Bounds are dated data: all were restated on 2026-11-26, before the recorded runs, and the data list later changes. A row within its bound is \
-    predicted if our value is drawn, solved, counted or timed, and the bound is numerical: {} % of the paper's value, or of the gain over the host \
-    alone; every digit of counts and solutions. It is order only if the bound says only which of two values is larger; by construction if the bound \
-    admits every value that the computation can give; consistent if nothing is measured. Calibrated rows determined a constant of the model: they \
-    are not evidence. All readings that the text allows must lie within the bound. A row outside its bound is missed, and names the cause, if known. \
-    It is explained if this run varies something that the papers leave open and reaches the value without losing another row. If a paper contradicts \
-    itself and our value agrees with one of its values, the row is contradictory. Differences are relative to the paper's value. The source of a row \
-    is this run (computed), a recorded run at full size (recorded), or both, with the same bits.";
+const HOW: &str = "Each row compares a figure of a paper with our value. The figure is printed, implied by printed figures, or inferred by us. Every \
+    bound has a date: all were restated on 2026-11-26, before the recorded runs, and the data list later changes. A row within its bound is \
+    \"predicted\" if our value is drawn, solved, counted or timed, and the bound is numerical: {} % of the paper's value or of its gain over the \
+    host alone, or every digit for counts and solutions. It is \"order only\" if the bound only says which of two values is larger, \"by \
+    construction\" if the bound admits every value that the computation can give, and \"consistency of print\" if our value follows from the paper's \
+    numbers and equations alone. \"Calibrated\" values determined a constant of the model: they are not evidence. A bound must hold for all readings \
+    that the text allows. A row outside its bound is \"missed\", with the cause if it is known. It is \"explained\" if this run varies something \
+    that the papers leave open, and reaches the printed value without losing another row. If a paper contradicts itself and our value agrees with \
+    one of its values, the row is \"contradictory\". Differences are relative to the paper's value. The source of a row is this run (computed), a \
+    recorded run at full size (recorded), or both with the same bits.";
 
 /// Maximum number of entries with printed tables; for more, the program prints a line per paper.
 const PRINTED: usize = 3;

@@ -34,7 +34,7 @@ impl Shared {
         Self { models, ..Self::default() }
     }
 
-    /// Stores pieces of the run in a folder, and reuses existing ones.
+    /// Stores pieces of the run in a folder, and reuses existing pieces.
     pub(super) fn keeping(self, kept: Option<Rc<KeptResults>>) -> Self {
         Self { kept, ..self }
     }
@@ -44,8 +44,8 @@ impl Shared {
         self.kept.as_deref()
     }
 
-    /// Returns a piece of an entry's work, which its name determines: read from the folder if it is stored there,
-    /// otherwise computed.
+    /// Returns the piece of an entry's work with this name: read from the folder if it is stored there, otherwise
+    /// computed. The name must determine the result.
     pub(super) fn piece<T: Serialize + DeserializeOwned>(
         &self,
         name: &str,

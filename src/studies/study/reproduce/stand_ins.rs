@@ -24,7 +24,7 @@ impl ModelSize {
     }
 }
 
-/// Clear sky with a sun a quarter of a degree wide, which casts hard shadows.
+/// Clear sky with a sun half a degree wide, which casts hard shadows.
 pub(super) const HARD_SUN: ClearSky = ClearSky {
     sun: DVec3::new(1.0, -0.6, 1.1),
     sun_radiance: [4e4, 3.7e4, 3.2e4],

@@ -9,7 +9,7 @@ use crate::report::words::listed;
 
 type Part = (ReproduceEntry, EntryFindings);
 
-/// Maximum number of entries that a line names.
+/// Maximum number of entries in a line.
 const NAMED: usize = 3;
 
 /// One line per paper with an entry, each with the counts of its verdicts.
@@ -27,7 +27,7 @@ pub fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
     Paper::VARIANTS.iter().filter_map(line).collect()
 }
 
-/// Sentence about the entries with missed rows: those with the most of them.
+/// Sentence about the entries that have the most missed rows.
 fn text(parts: &[&Part]) -> String {
     let mut worst: Vec<(usize, String)> = Vec::new();
     for (entry, found) in parts {

@@ -134,7 +134,7 @@ impl CardUnit for Nv {
         let (x, y) = (a & !SIGN, b & !SIGN);
         let (largest, least) = (x.max(y), x.min(y));
         let [up, down] = Self::scales(largest);
-        // Alignment truncates only the lesser addend. The sum is a magnitude; the host's sum has the sign.
+        // Alignment truncates only the lesser addend. The sum is a magnitude; the host's sum gives the sign.
         let aligned = (f32::from_bits(least) * up).trunc() * down;
         let other = f32::from_bits(aligned.to_bits() ^ (a ^ b) & SIGN);
         let sum = f32::from_bits(largest) + other;

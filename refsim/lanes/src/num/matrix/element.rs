@@ -12,7 +12,7 @@ pub struct Element {
     pub name: &'static str,
     /// Its format; types of up to 8 bits saturate. `None` for fp64.
     pub format: Option<Format>,
-    /// Bits below the format's that are ignored: 13 in tf32 and xf32, whose numbers are words of single precision.
+    /// Ignored bits below the format's bits: 13 in tf32 and xf32, whose numbers are words of single precision.
     pub ignored_bits: u32,
 }
 

@@ -8,7 +8,7 @@
 //! use refsim_lanes::num::matrix::{Element, MatrixUnit, Operand};
 //!
 //! let volta = MatrixUnit::find("volta_f16_f32")?;
-//! // 1 * 1 - 2^-12 * 2^-12: below the 23 bits that Volta keeps, within the 24 of Turing.
+//! // 1 * 1 - 2^-12 * 2^-12: the last product is below the 23 bits that Volta keeps, but within Turing's 24.
 //! let [a, b] = [[0x3c00, 0x8c00], [0x3c00, 0x0c00]];
 //! let [a, b] = [&a, &b].map(|codes| Operand { element: Element::FP16, codes, scales: &[] });
 //! assert_eq!(volta.dot(a, b, 0), 0x3f800000);

@@ -17,9 +17,9 @@ fn sum(addends: impl Iterator<Item = Addend> + Clone, bits: u32, least: i32, res
     result.round(sum.sum < 0, sum.sum.unsigned_abs(), sum.top - bits.cast_signed())
 }
 
-/// `mma.sync` with FP8 on Hopper and data-center Blackwell: two aligned sums, first of zero and the products whose
-/// index modulo 4 is 0 or 1, then of that result and the other products; `c` is added by an ordinary addition, to
-/// nearest even. NaN, infinities and zeros have not been measured.
+/// `mma.sync` with FP8 on Hopper and data-center Blackwell: two aligned sums. The first adds zero and the products
+/// whose index modulo 4 is 0 or 1; the second adds that result and the other products. An ordinary addition, to nearest
+/// even, then adds `c`. NaN, infinities and zeros have not been measured.
 pub(super) fn synchronous(products: &[Value], c: u64, bits: u32, least: i32, result: ResultFormat) -> u64 {
     let element = result.element;
     let half = |which: usize, sum: u64| {
@@ -101,7 +101,7 @@ pub(super) fn pairs(x: &[Value], y: &[Value], block: usize, c: Value, is_first: 
 }
 
 /// `fma(a, b, c)`: the exact value, rounded once; signs of zeros as in IEEE 754.
-#[expect(clippy::disallowed_methods, reason = "one rounding is what the unit has")]
+#[expect(clippy::disallowed_methods, reason = "the unit rounds once")]
 pub(super) fn fused(a: u64, b: u64, c: u64, element: Element) -> u64 {
     if element == Element::FP32 {
         return ops::fused_mad(Format::FP32, a as u32, b as u32, c as u32).bits.into();

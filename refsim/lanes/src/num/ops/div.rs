@@ -7,9 +7,9 @@ use crate::num::unit;
 use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// `a / b`. A finite nonzero `a` over zero is `DIVIDE_BY_ZERO`: infinity with the quotient's sign, or the end of the
-/// range on the side of `a` (in fixed point, also if it wraps, and in `:sat` floats). `0/0` and `inf/inf` are
-/// `INVALID`, and 0 in fixed point.
+/// `a / b`. A finite nonzero `a` over zero is `DIVIDE_BY_ZERO`, and gives infinity with the quotient's sign. Without
+/// infinity it gives NaN. Without both, and in fixed point (even if it wraps) and `:sat` floats, it gives the end of
+/// the range on the side of the quotient. `0/0` and `inf/inf` are `INVALID`, and 0 in fixed point.
 pub fn div(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
     div_values(&env, unpack(&env.format, a), unpack(&env.format, b))

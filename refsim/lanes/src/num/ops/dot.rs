@@ -46,8 +46,8 @@ pub fn aligned_bits(text: &str) -> Option<u8> {
     text.strip_prefix("aligned:")?.parse().ok().filter(|bits| *bits <= MAX_ALIGNED_BITS)
 }
 
-/// Sums the products of `terms` (dp2, dp3, dp4; any number works, an empty sum is +0). Units of cards have a fixed
-/// order and ignore the order given.
+/// Sums the products of `terms` (dp2, dp3, dp4; any number of terms works, an empty sum is +0). Units of cards have a
+/// fixed order and ignore the order given.
 pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
     let env = env.into();
     accumulated(env, env, &env.format, order, terms)

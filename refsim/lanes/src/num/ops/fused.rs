@@ -19,8 +19,8 @@ pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     add(env, product.bits, c).also(product.flags)
 }
 
-/// `a * b + c` rounded once, over the product's denominator. `0 * inf + c` is `INVALID` even for a quiet NaN `c`: IEEE
-/// 754 leaves this open; SoftFloat and RISC-V do the same.
+/// `a * b + c`, rounded once. `0 * inf + c` is `INVALID` even for a quiet NaN `c`: IEEE 754 leaves this open; SoftFloat
+/// and RISC-V do the same.
 pub fn fused_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     let env = env.into();

@@ -1,8 +1,8 @@
 //! The operations: functions from a format and bit patterns to an [`Outcome`](super::Outcome).
 //!
-//! Each takes `impl Into<Env>`, so a [`Format`](super::Format), a `&Format` or an [`Env`](super::Env). Operands are
+//! Each accepts `impl Into<Env>`: a [`Format`](super::Format), a `&Format` or an [`Env`](super::Env). Operands are
 //! bit patterns in the low bits; bits above the width are ignored. Every result is the exact real result rounded
-//! once, unless the operation's documentation names its steps. No operation panics.
+//! once, unless the operation's documentation lists its steps. No operation panics.
 
 mod add;
 mod aligned;

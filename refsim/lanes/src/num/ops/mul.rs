@@ -16,7 +16,7 @@ pub fn mul(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     product(&env, unpack(&env.format, a), unpack(&env.format, b))
 }
 
-/// The product of two numbers of one format; the result may have another format.
+/// The product of two numbers of the same format; the result may have another format.
 pub(crate) fn product(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     match (a, b) {

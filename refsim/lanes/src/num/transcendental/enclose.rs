@@ -48,7 +48,7 @@ pub(super) fn exp2_quick(sign: bool, sig: u64, exp: i32, den: u32) -> Enclosure<
     Enclosure { low: i128::from(sum), high: i128::from(sum) + 16, exp: -62 }
 }
 
-/// As [`exp2_quick`], with arbitrary precision, in units of `2^-places`.
+/// Like [`exp2_quick`], but with arbitrary precision, in units of `2^-places`.
 ///
 /// Truncation error in units of `2^-(places + 32)`: one per bit of ln 2, three in `t`, four per term of the series.
 /// With fewer than `2^13` bits and terms the total is below `2^20`, a small part of one unit of `2^-places`.
@@ -102,7 +102,7 @@ pub(super) fn log2_quick(sig: u64) -> Enclosure<i128> {
     Enclosure { low: digits, high: digits + 4, exp: -60 }
 }
 
-/// As [`log2_quick`], with arbitrary precision, in units of `2^-places`.
+/// Like [`log2_quick`], but with arbitrary precision, in units of `2^-places`.
 pub(super) fn log2_long(sig: u64, places: u32) -> Enclosure<BigInt> {
     if sig.is_power_of_two() {
         return Enclosure { low: BigInt::ZERO, high: BigInt::ZERO, exp: -places.cast_signed() };

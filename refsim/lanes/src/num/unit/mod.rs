@@ -4,7 +4,7 @@
 //! commit f102b823), whose tests compare every bit with real chips: the vertex units of NV20, NV25 and an NV34 (a
 //! sibling of NV30 and NV35), and the unit of GT200.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
 //! | `word.rs` | single floats as words; truncation to 24 bits |
 //! | `dispatch.rs` | maps each [`super::NumberOperation`] to a function |

@@ -29,7 +29,7 @@ macro_rules! tables {
 tables! {
     /// First approximations of reciprocals, by the upper 6 bits of the mantissa.
     NV_RCP: 1 = "nv_rcp";
-    /// First approximations of reciprocal roots: entries for odd fields, then for even ones.
+    /// First approximations of reciprocal roots: entries for odd exponent fields, then for even ones.
     NV_RSQ: 1 = "nv_rsq";
     /// Base and slope of `2^x - 1` in EXP.
     NV_EXP: 2 = "nv_exp";

@@ -67,7 +67,7 @@ impl FilteredLevel {
     /// Prepares the only level that a binding reads, which does not depend on the level of detail.
     pub(crate) fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Self {
         let SamplerBinding { image, state } = binding;
-        // With a mip filter, the texture has a single level: other such textures need a level of detail.
+        // A mip filter implies a single level here: textures with more levels need a level of detail.
         let last = image.levels().len() - 1;
         let number = if state.mip == MipFilter::None { usize::from(state.max_mip_level).min(last) } else { 0 };
         Self::of_level(binding, number, rules, lane)
@@ -125,7 +125,7 @@ impl FilteredLevel {
         stored.map(|texel| decoders.each_ref().map(|decode| decode(texel))).collect()
     }
 
-    /// The raw values of the texels, and at the end of the border; `None` for a large level, or if reads combine texels.
+    /// The raw values of the texels and, at the end, the border; `None` for a large level, or if reads combine texels.
     fn raw_texels(&self, filter: Filter, source: TexelSource<'_>, formats: &LaneFormats) -> Option<&[[u32; 4]]> {
         if self.is_large() || self.is_linear(filter) {
             return None;

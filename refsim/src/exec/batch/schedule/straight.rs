@@ -130,7 +130,7 @@ impl StraightProgram {
     }
 }
 
-/// Returns `true` if a node takes differences across quads, directly or for a texture's level of detail.
+/// Returns `true` if a node computes differences across quads, directly or for a texture's level of detail.
 fn looks_at_neighbours(kind: &NodeKind, detailed: &[bool; SAMPLERS]) -> bool {
     match *kind {
         NodeKind::Difference(..) => true,

@@ -12,8 +12,8 @@ use crate::exec::lower::{Arith, TRUE};
 use crate::output::DepthFormat;
 
 impl OutputStage {
-    /// Returns `true` if the depth test does not depend on the program: it neither kills nor writes depth, and there is
-    /// no alpha test.
+    /// Returns `true` if the depth test does not depend on the program: the program neither kills nor writes depth, and
+    /// there is no alpha test.
     pub(crate) fn tests_early(&self, results: &ResultSlots) -> bool {
         results.killed.is_none() && results.depth.is_none() && self.state.alpha.is_none()
     }

@@ -245,7 +245,7 @@ impl Assembler<'_> {
                 self.alu(node, k, if sine { NumberOperation::Sin } else { NumberOperation::Cos }, [a; 3], places);
             }
             NodeKind::Texel(..) | NodeKind::Constant(_) | NodeKind::Input(_) => {}
-            // Only of programs with flow control, and of vertex programs.
+            // These occur only in programs with flow control and in vertex programs.
             NodeKind::Held(_) | NodeKind::Relative(..) => {}
         }
     }

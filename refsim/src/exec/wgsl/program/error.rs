@@ -8,7 +8,7 @@ use thiserror::Error;
 pub enum ProgramError {
     /// More live values or constants than operands can address.
     #[error(
-        "the program needs {slots} slots and {constants} constants, at most 32768 and 32256 can be named; use another executor"
+        "the program needs {slots} slots and {constants} constants, shaders have at most 32768 and 32256; use another executor"
     )]
     TooLarge {
         /// Number of slots for live values.
@@ -22,7 +22,7 @@ pub enum ProgramError {
     )]
     Unsupported,
     /// More number formats of instructions, storages, sums and products than the shader's table holds.
-    #[error("the program has {formats} number formats, the table of shaders holds {most}; use another executor")]
+    #[error("the program has {formats} number formats, the table in shaders has at most {most}; use another executor")]
     TooManyFormats {
         /// Number of formats.
         formats: usize,

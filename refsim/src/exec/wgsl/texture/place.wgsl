@@ -181,7 +181,7 @@ fn texture_place(s: TextureState, lane: u32, detail: u32) -> TexturePlace {
                     if (axis < axes) {
                         step = select(TEXTURE_STEP_SCALE, TEXTURE_STEP_QUOTIENT, cube);
                     } else {
-                        // Patterns of numbers >= 0 order like the numbers, with the canonical NaN above all.
+                        // Patterns of numbers >= 0 have the order of the numbers, with the canonical NaN above all.
                         largest = max(largest, sum);
                         direction++;
                         axis = 0u;

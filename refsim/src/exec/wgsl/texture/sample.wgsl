@@ -38,7 +38,7 @@ fn texture_taps(s: TextureState, coordinate: u32, axis: u32, size: u32, linear: 
     let mode = texture_flag(s, FLAG_ADDRESS + 2u * axis, 2u);
     let fraction = select(0u, texture_flag(s, FLAG_FILTER_BITS, 4u), linear);
     let half_up = fraction != 0u && texture_flag(s, FLAG_CUT, 1u) == 0u;
-    // From 2^24 on every FP32 number is an even integer, and all numbers of one sign have the same address.
+    // From 2^24 on every FP32 number is an even integer, and all numbers with the same sign have the same address.
     var position = texture_position(coordinate, 0x4b800000u, scale, fraction, half_up);
     if (fraction != 0u) {
         position = texture_add(position, texture_negated(vec2<u32>(1u << (fraction - 1u), 0u)));
@@ -206,7 +206,7 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
         }
     }
     if (HAS_UNITS) {
-        // Units of cards take single floats unchanged.
+        // Units of cards use single floats unchanged.
         if (floats && f.special > 1u) {
             return out;
         }

@@ -92,7 +92,7 @@ fn texel_single(component: u32, bits: u32) -> u32 {
     var single = select(sign | size, 0x7fc00000u, field == top_field && fraction != 0u);
     single = select(single, 0u, kind < TEXEL_FP16);
     if (HAS_UNITS) {
-        // Units of cards take single floats unchanged; NaN of other formats becomes the unit's own NaN.
+        // Units of cards use single floats unchanged; NaN of other formats becomes the unit's own NaN.
         if format(MAIN).special > 1u && u_is_nan(single) {
             single = select(U_NAN, bits, kind == TEXEL_FP32);
         }

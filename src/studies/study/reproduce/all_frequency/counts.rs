@@ -29,10 +29,10 @@ pub(super) const COLUMNS: [(&str, &str, usize); 6] = [
     ("buddha", "buddha-diffuse", 1),
     ("buddha", "buddha-glossy", M),
 ];
-
-const HOW: &str = "Nothing is run: sizes follow from printed ones by equation 12. Segments below the horizon are counted for {} normals spread over \
-    the sphere, by fine directions within the segment only. Frame rates come from one constant, {} G multiplications per second, fitted to all six \
-    rates without drawing; representatives count as dense, though the paper's are sparse.";
+const HOW: &str = "Nothing is run: sizes follow from printed sizes by equation 12. Segments below the horizon are counted for {} normals that are \
+    spread over the sphere; a segment is below if none of the fine directions within it is above the horizon. Frame rates follow from one constant, \
+    {} G multiplications per second, fitted to all six printed rates without drawing. Representatives count as dense, though the paper's are \
+    sparse.";
 const QUESTION: &str = "why fewer multiplications per second fit diffuse models and Buddha: sparse representatives, memory, or the host's share of the loop.";
 const RATE: &str = "Table 1: frames without drawing, which together determined the constant";
 

@@ -11,12 +11,12 @@ const REFLECTANCES: [(&str, &str, Forms, &str); 2] = [
     ("cook-torrance", "Cook-Torrance", cook_torrance, "forms of Cook and Torrance's model"),
     ("schlick", "Schlick", schlick, "forms of Schlick's model"),
 ];
-
-const HOW: &str = "Reflectance times cosine is tabulated on parabolic maps of {} x {} texels, with {} samples per pair of texels and means cut off \
-    at {}. It is approximated by {} terms of the singular value decomposition, and by spherical harmonics. Errors are over the {} x {} pairs of \
-    texels whose directions lie above the horizon. The paper names the models and their parameters, but none of their factors. Rows use the textbook \
-    form, which creates no energy; the tables also have the other printed denominators, and forms that an earlier search had found nearer. Forms at \
-    centers have one sample per pair; forms at equal angles are sampled at {} directions with equal solid angles instead of on maps.";
+const HOW: &str = "The product of reflectance and cosine is tabulated on parabolic maps of {} x {} texels, with {} samples per pair of texels; means \
+    are cut off at {}. It is approximated by {} terms of the singular value decomposition, and by spherical harmonics. Errors are over the {} x {} \
+    pairs of texels whose directions lie above the horizon. The paper gives the models and their parameters, but not the factors in them. Rows use \
+    the textbook form, which creates no energy; the tables also have other published denominators, and forms that an earlier search found \
+    nearer to the printed errors. Forms at centers have one sample per pair; forms at equal angles are sampled at {} directions with equal solid angles \
+    instead of on maps.";
 const QUESTION: &str = "which denominators, Fresnel and shadowing terms the paper's two reflectances have, where on the hemisphere its errors are \
     taken, and whether the harmonics expand view, light or both.";
 

@@ -25,8 +25,8 @@ use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Tangents, Vertices};
 
-/// Segments that are compressed if not all are: a quarter of a face at the side, above and below. Compressing all of
-/// Table 1's models takes some 30 hours of processor time at full size.
+/// Segments that represent all: a quarter of a side face, of the upper face and of the lower face. Compressing all
+/// segments of Table 1's models takes some 30 hours of processor time at full size.
 pub(super) const SAMPLED_SEGMENTS: [usize; 3] = [0, 17, 21];
 /// Iterations per number of representatives on reduced models.
 pub(super) const REDUCED_ITERATIONS: usize = 2;
@@ -140,7 +140,7 @@ impl ModelVisibility {
     }
 
     /// Compresses and codes some segments of the transfer, which represent all: the others are assumed to have the same
-    /// size per vertex. Each segment is a piece of the work `name`.
+    /// size per vertex. Each segment is stored as a piece of the work `name`.
     pub(super) fn compressed(
         &self,
         reflectance: &Reflectance,

@@ -40,7 +40,7 @@ fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), StudyEr
 }
 
 /// Largest roughness at which the difference is visible, interpolated linearly between two roughnesses of the sweep; 0
-/// if there is none.
+/// if it is visible at no roughness.
 fn threshold(rows: &[SweptRoughness]) -> f64 {
     let Some(last) = rows.iter().rposition(|row| row.flip > SEEN) else { return 0.0 };
     let Some(next) = rows.get(last + 1) else { return rows[last].roughness };

@@ -16,7 +16,7 @@ const HAAR_BITS: u32 = 8;
 /// Results for a segment, or sums over several.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct SegmentSums {
-    /// Vertices that hold the segment.
+    /// Number of vertices with transfer in the segment.
     pub(super) points: usize,
     pub(super) clusters: usize,
     /// Number of numbers stored before coding.
@@ -50,7 +50,7 @@ pub(super) struct CodeSums {
 }
 
 impl SegmentSums {
-    /// Compresses and codes a segment of a model, with its rows per transfer matrix and its vertices.
+    /// Compresses and codes a segment of a model with `rows` rows per transfer matrix and `of_model` vertices.
     pub(super) fn new(
         TransferSegment { segment, vertices, signal }: TransferSegment,
         iterations: usize,
@@ -119,7 +119,7 @@ fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
     last
 }
 
-/// Bytes of a segment without clusters: a byte for the row and a value, for each coefficient that is nonzero after
+/// Bytes of a segment without clusters: one for the row and one for the value of each coefficient that is nonzero after
 /// quantisation. The vertex's largest coefficient gets the largest integer.
 fn haar_bytes(signal: &Signal) -> f64 {
     let nonzeros = |point: usize| {

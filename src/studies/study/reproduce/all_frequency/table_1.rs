@@ -26,7 +26,7 @@ const TABLE_1: [(&str, &str, TableModel, TableMaterial); 6] = [
     ("buddha-diffuse", "buddha", Buddha, Diffuse),
     ("buddha-glossy", "buddha", Buddha, Cook),
 ];
-/// Figures of a column, as in figure names; the first belongs to the model, and is listed once for both its materials.
+/// Figures of a column, as in figure names; the first belongs to the model, and is listed once for both materials.
 const FIGURES: [&str; 5] = ["omega", "clustered", "coded", "size", "error"];
 
 /// Figure to which the shape of a stand-in was fitted.
@@ -117,7 +117,7 @@ fn computed(shared: &Shared) -> Result<([Vec<CompressedModel>; 2], CompressedGro
 /// The ground of section 7: "the raw data was about 715MB which compressed down to 23.6MB".
 #[derive(Serialize, Deserialize)]
 struct CompressedGround {
-    /// Fraction of the ground's segments that hold transfer.
+    /// Fraction of the ground's segments with nonzero transfer.
     omega: f64,
     /// Ratio of coded to raw bytes, per coding.
     left: Vec<f64>,
@@ -132,7 +132,7 @@ impl CompressedGround {
     }
 
     /// Rows for raw and coded data with the printed number of vertices. The value counts all segments, as Table 1 does,
-    /// in units of 10^6 bytes; the other readings count only segments that hold transfer, or use units of 2^20 bytes.
+    /// in units of 10^6 bytes; the other readings count only segments with transfer, or use units of 2^20 bytes.
     fn rows(&self) -> Result<[PaperRow; 2], StudyError> {
         let raw = 4.0 * f64::from(GROUND_SIDE * GROUND_SIDE) * LIGHT_TEXELS as f64;
         let units = |bytes: f64| [1e-6 * bytes, bytes / f64::from(1 << 20)];

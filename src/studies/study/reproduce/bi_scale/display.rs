@@ -40,7 +40,7 @@ pub(super) fn of_bunny([width, height]: [u32; 2]) -> Result<Camera, StudyError> 
     Camera::new([3.0, -5.5, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.22, width, height).on(CARD)
 }
 
-/// Draws a mesh of one texture with `side` local directions along an edge.
+/// Draws a mesh with a single texture, and `side` local directions along an edge.
 pub(super) fn display(model: (&Mesh, &Vertices), side: usize, camera: Camera) -> Result<DisplayRun, StudyError> {
     display_textured(model, &vec![0; model.0.len()], side, camera)
 }

@@ -8,11 +8,10 @@ use super::{
     number, paper_row, paragraph, printed_value, solved,
 };
 use crate::transfer::{Tangents, Vertices};
-
 const HOW: &str = "The cost of new light is the difference between a scene's two frame times. One constant, {} billion operations per second and \
-    channel, is fitted to all transfers of table I; all rates with new light follow from it and the printed rates with only a new view. The emulated \
-    card displays our bunny in {} x {} pixels, with {} passes of {} directions, {} texture reads and {} other instructions per pixel of a pass. Its \
-    time is modelled by clocks, with texture reads at the units' full speed; the paper names cache misses as decisive.";
+    channel, is fitted to all transfers of table I; all rates with new light follow from it and from the printed rates with only a new view. The \
+    emulated card displays our bunny in {} x {} pixels, in {} passes of {} directions; a pass has {} texture reads and {} other instructions per \
+    pixel. The time is modelled from clocks, with texture units at full speed; the paper says that cache misses are decisive.";
 const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large the models appear in the pictures; how many texture reads missed the caches.";
 
 /// A scene's printed rates in one table.
@@ -89,7 +88,7 @@ fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Resu
     let dependence = if is_of_table_1 {
         Dependence::Calibrated { on: "rates of table I" }
     } else {
-        Dependence::Predicted { from: "rates of table I, operations, rates of views" }
+        Dependence::Predicted { from: "rates of table I, operations, rates with only a new view" }
     };
     let ours = 1.0 / (1.0 / frames.rates[0] + frames.operations / constant);
     paper_row(&frames.ids[1], (CARD, Method::Equation), (ours, dependence))

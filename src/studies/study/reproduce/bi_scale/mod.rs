@@ -16,10 +16,9 @@ use super::{
     Contradiction, Dependence, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, StudyError, TimedWork,
     drawn, number, paper_row, paragraph, printed, printed_value,
 };
-
-const COUNTS: &str = "Nothing is run. Each nonzero value costs two operations. A dense matrix takes 1 byte per value, biclusters 4 bytes per \
-    operation: 4 per row, which costs one operation, and 8 for a column's place and value, which cost two. A texel has 3 bytes. These byte counts \
-    were read off the printed sizes, so rows in megabytes are calibrated.";
+const COUNTS: &str = "Nothing is run. Each nonzero value of the matrix costs two operations. A dense matrix takes 1 byte per value, and \
+    biclusters take 4 bytes per operation: a row takes 4 bytes and one operation; a column takes 8 bytes, for its place and its value, and two \
+    operations. A texel has 3 bytes. We inferred these byte counts from the printed sizes, so rows in megabytes are calibrated.";
 const QUESTION: &str =
     "why the small bunny's dense matrix is printed larger than its vertices imply, while the other five fit.";
 

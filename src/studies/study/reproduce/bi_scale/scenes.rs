@@ -9,7 +9,7 @@ pub(super) struct PrintedScene {
     pub(super) name: &'static str,
     /// Number of local directions per side.
     pub(super) side: usize,
-    /// Width and height of the picture that is timed; Table II names none.
+    /// Width and height of the picture that is timed; Table II gives no size.
     pub(super) picture: [u32; 2],
 }
 

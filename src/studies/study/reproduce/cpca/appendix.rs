@@ -15,10 +15,9 @@ const PROJECTIONS: [(&str, HemisphereProjection, usize); 4] = [
     ("even-7", EvenReflection, 7),
     ("even-5", EvenReflection, 5),
 ];
-
 const HOW: &str = "The Gram matrix of the harmonics over the hemisphere, its spectrum and the errors of projections are computed in f64. Odd and \
-    even reflection follow the formulas: the paper's words in parentheses are swapped. Errors are squared errors over the hemisphere, of functions \
-    whose square integrates to one over the sphere; section 3.2 prints the square roots of two of them.";
+    even reflection follow the paper's formulas; its words in parentheses are swapped. Errors are squared errors over the hemisphere, of functions \
+    whose square integrates to one over the sphere; section 3.2 prints the square roots of two of these errors.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let hemisphere = Hemisphere::new(ORDER);

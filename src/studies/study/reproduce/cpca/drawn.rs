@@ -70,7 +70,7 @@ impl DrawnClusters {
 #[derive(Clone, Copy)]
 pub(super) struct MeshCost {
     pub(super) triangles: u64,
-    /// Vertices processed per triangle, drawn in their order.
+    /// Number of vertices processed per triangle if triangles are drawn in their order.
     pub(super) run_per_triangle: f64,
 }
 

@@ -12,7 +12,7 @@ use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
 /// Name, printed numbers of clusters and vectors, and the figures of squared error and frames per second, in the order
-/// of the figure. The errors of Figure 11 include CPCA's.
+/// of the figure. CPCA's error is one of those of Figure 11.
 const ENCODINGS: [(&str, usize, usize, [&str; 2]); 3] = [
     ("PCA", 1, 20, ["cpca/error-pca", "cpca/rate-pca"]),
     ("VQ", 1792, 0, ["cpca/error-vq", "cpca/rate-vq"]),

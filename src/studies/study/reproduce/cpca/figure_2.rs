@@ -8,7 +8,7 @@ use crate::report::{Cell, Table};
 
 /// Numbers of vectors, one per curve of the figure.
 const VECTORS: [usize; 6] = [0, 1, 2, 4, 8, 16];
-/// Minimum number of points per cluster: 48,668 points allow up to 16 k clusters.
+/// Minimum number of points per cluster: 48,688 points allow up to 16,384 clusters.
 const LEAST_POINTS: usize = 2;
 
 const HOW: &str = "The signal is {} points of shadowed diffuse transfer of order {} on our bird, in {} to {} clusters. \
@@ -49,7 +49,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Numbers of curves that are above the previous one at the smallest common storage, and below it at the largest.
+/// Numbers of curves that are above the previous curve at the smallest common storage, and below it at the largest.
 pub fn crossings(curves: &[Curve]) -> [usize; 2] {
     let mut found = [0, 0];
     for pair in curves.windows(2) {

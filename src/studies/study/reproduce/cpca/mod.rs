@@ -32,10 +32,10 @@ use super::{
     Contradiction, Dependence, EntryFindings, HOST, Method, ModelSize, PaperRow, StudyError, TimedWork, ends, number,
     paper_row, paragraph, printed, printed_value,
 };
-
-const SECTION_6: &str = "Nothing is run: sizes follow from printed ones by the formulas of sections 4.1 and 6.2. A \
-    register holds 4 numbers, and each vector takes whole registers, while the paper divides. Per frame, the host \
-    multiplies every mean and vector by the light of three channels; without compression, every vertex's matrix.";
+const SECTION_6: &str = "Nothing is run: sizes follow from printed sizes by the formulas of sections 4.1 and 6.2. A \
+    register holds 4 numbers, and each vector takes whole registers; the paper divides without rounding up. Per \
+    frame, the host multiplies every mean and every vector by the light of three channels. Without compression, it \
+    multiplies the matrix of every vertex instead.";
 
 /// Sections 4.1, 6 and 6.2: numbers, registers and host work. The rows are expressions in `src/studies/papers`.
 pub(super) fn section_6(_: &Shared) -> Result<EntryFindings, StudyError> {

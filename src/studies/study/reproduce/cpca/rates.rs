@@ -1,4 +1,4 @@
-//! Frame rates from sizes and overdraw, which is printed in the table of section 7, or is our clusters' overdraw.
+//! Frame rates from sizes and overdraw: the overdraw printed in the table of section 7, or that of our clusters.
 
 use refsim::device::Profile;
 use refsim::timing::host::HostOperation;
@@ -52,8 +52,8 @@ pub(super) fn modelled_from_clusters(
     modelled(card, *shared.get::<MeshCost>(model)?, size, (drawn.overdraw[BOTH], groups))
 }
 
-/// Frames per second without compression, for which the host multiplies every matrix by the light: by equation, from
-/// printed sizes.
+/// Frames per second without compression, by equation and from printed sizes: the host multiplies every matrix by the
+/// light.
 pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
     let host = host_of_section_7().on(HOST)?;
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
@@ -82,7 +82,7 @@ pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, StudyError>
     Ok(Contradiction::between(figure, other.value, &how))
 }
 
-/// Rows for printed rates, and a table of the time per unit. A signal is an index, a name, and its name in figure
+/// Rows for printed rates, and a table of the times of each unit. A signal is an index, a name, and its name in figure
 /// names.
 pub(super) fn rates(
     models: &[(usize, &'static str, &'static str)],

@@ -65,7 +65,7 @@ impl<'a> ModelView<'a> {
         Ok(if whole > 0.0 { (apart / whole).sqrt() } else { 0.0 })
     }
 
-    /// Fraction of another picture's light that this one lacks, over all pixels and channels.
+    /// Fraction of another picture's light that this picture lacks, over all pixels and channels.
     pub(super) fn missing(&self, other: &Self) -> Result<f64, StudyError> {
         let sum = |colors: Vec<[f64; 3]>| colors.iter().flatten().sum::<f64>();
         let (ours, theirs) = (sum(self.colors(None)?), sum(other.colors(None)?));

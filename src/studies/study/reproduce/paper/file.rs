@@ -1,4 +1,4 @@
-//! Files of printed figures: their format, and its conversion to figures.
+//! Files of printed figures: their format, and their conversion to figures.
 //!
 //! A file has groups of figures that share a section of the paper, and often a unit and a bound. A figure's value is
 //! text with the printed number of decimals, or the ratio of two figures above it. The README of `src/studies/papers`
@@ -40,11 +40,11 @@ pub(super) struct FigureGroup {
     figures: Vec<FileFigure>,
 }
 
-/// Terms on which a figure is judged, and data of a row with an expression; from its group or its own.
+/// Terms by which a figure is judged, and data of a row with an expression. A group's terms hold for all its figures.
 #[derive(Clone, Debug, Default, Deserialize)]
 pub(super) struct FigureTerms {
     pub(super) unit: Option<String>,
-    /// Bound as text; if there is none, `unjudged` has the reason.
+    /// Bound as text; without a bound, `unjudged` has the reason.
     pub(super) bound: Option<String>,
     pub(super) unjudged: Option<String>,
     /// Reading that our value follows, if the text allows several.
@@ -57,7 +57,7 @@ pub(super) struct FigureTerms {
     uses: Option<String>,
     /// Printed values that determined a constant of the expression.
     chose: Option<String>,
-    /// Description of the computation, if its value may contradict the printed one.
+    /// Description of the computation, if its value may contradict the printed value.
     contradicts: Option<String>,
 }
 

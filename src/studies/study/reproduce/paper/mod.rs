@@ -1,8 +1,8 @@
 //! Printed figures of the papers: the data of `src/studies/papers`, one file per paper, each figure once.
 //!
-//! The files lie within the package, so that the program contains them. They state the bound of every judged figure
-//! independently of any result; the program rejects a file whose bounds were changed without a list of the changes. A
-//! figure that follows only from other printed figures also has the expression of its row.
+//! The files are embedded in the program. They state the bound of every judged figure independently of any result; the
+//! program rejects a file whose bounds were changed without a list of the changes. A figure that follows only from
+//! other printed figures also has the expression of its row.
 
 mod expression;
 mod file;
@@ -40,7 +40,7 @@ pub fn figures() -> Result<&'static [PaperFigure], StudyError> {
     FIGURES.as_deref().map_err(|reason| papers_error(reason))
 }
 
-/// Returns the figure with a name, as in `ray-engine/host-alone`. Fails if there is none.
+/// Returns the figure with a name, as in `ray-engine/host-alone`. Fails if no figure has that name.
 pub fn printed(id: &str) -> Result<&'static PaperFigure, StudyError> {
     let found = figures()?.iter().find(|figure| figure.id == id);
     found.ok_or_else(|| papers_error(&format!("no figure is named `{id}`")))

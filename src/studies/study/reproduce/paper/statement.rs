@@ -15,8 +15,8 @@ pub(super) fn verify(file: &PaperFile) -> Result<(), String> {
         let found = digest(file, first, &stated.date);
         if found != stated.digest {
             return Err(format!(
-                "the statements of {} have digest {}, and the file now has {found}: a figure's value, bound or reading was changed. List the old one \
-                 in the figure's `changed`, with date and reason; give a new figure a date of its own",
+                "the statements of {} have digest {}, and the file now has {found}: a figure's value, bound or reading was changed. List what it was \
+                 before in the figure's `changed`, with date and reason; give a new figure its own date",
                 stated.date, stated.digest,
             ));
         }
@@ -24,11 +24,11 @@ pub(super) fn verify(file: &PaperFile) -> Result<(), String> {
     let dated = |date: &String| file.stated.iter().any(|stated| stated.date == *date);
     for (group, figure) in file.entries() {
         if !figure.stated.iter().all(dated) {
-            return Err(format!("`{}` is stated on a date that is not listed", figure.id));
+            return Err(format!("`{}` is stated on a date that `stated` does not list", figure.id));
         }
         let has_reasons = figure.changes(group).all(|change| !change.why.is_empty());
         if !has_reasons || !figure.changes(group).map(|change| &change.date).is_sorted() {
-            return Err(format!("the changes of `{}` need reasons, the oldest first", figure.id));
+            return Err(format!("each change of `{}` needs a reason, and the oldest change comes first", figure.id));
         }
     }
     Ok(())

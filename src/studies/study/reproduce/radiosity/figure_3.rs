@@ -20,11 +20,11 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 const CONVERGED: f64 = 1e-4;
 /// Residuals at which iterations are counted, for the sweep.
 const RESIDUALS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
-
-const HOW: &str = "The scene is a closed Cornell box without blocks. Form factors are computed in closed form and by contour integrals; the solution \
-    is in f64, from zero. No card is emulated: equation 4 converges as Jacobi's iteration does. The paper's \"about twice as many iterations to \
-    converge\" has two readings: the iterations until the residual falls to {} of its first value, and the slopes of the plot's lines over its last \
-    half. The row has both, for each channel. Figure 2 of the paper is a picture of a solution: `crossbar radiosity` draws one.";
+const HOW: &str = "The scene is a closed Cornell box without blocks. Form factors are computed in closed form and by contour integrals; the \
+    iterations run in f64 and start from zero. No card is emulated: equation 4 converges as Jacobi's iteration does. The paper's \"about twice as \
+    many iterations to converge\" has two readings: the ratio of the iterations until the residual falls to {} of its first value, and the ratio of \
+    the slopes of the plotted lines over their last half. The row has both, for each channel. Figure 2 of the paper is a picture of a solution: \
+    `crossbar radiosity` draws one.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let system = closed_box()?;
@@ -62,8 +62,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
                 lines,
                 ..Chart::default()
             },
-            caption: "Figure 3 of the radiosity paper. It prints no points; both of its curves are straight lines."
-                .into(),
+            caption: "Figure 3 of the radiosity paper prints no points; both of its curves are straight lines.".into(),
         }],
         ..EntryFindings::default()
     })

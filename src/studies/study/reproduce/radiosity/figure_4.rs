@@ -68,7 +68,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         text: text(&points, &printed)?,
         rows: vec![row],
         questions: vec![
-            "why the host's time would grow faster than the bytes that it reads, as the authors' estimate requires.",
+            "why the host's time would grow faster than the number of bytes that it reads, as the authors' estimate requires.",
         ],
         charts: vec![NamedChart {
             name: "radiosity-figure-4".into(),
@@ -81,7 +81,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     })
 }
 
-/// Size from which the host is slower, interpolated linearly between two of the sizes.
+/// Number of patches from which the host is slower, interpolated linearly between two of the sizes.
 fn crossing(points: &[Point], card: fn(&Point) -> f64) -> Option<f64> {
     let ahead = |p: &Point| p.host / card(p) - 1.0;
     points.windows(2).find(|two| ahead(&two[0]) < 0.0 && ahead(&two[1]) >= 0.0).map(|two| {
@@ -89,21 +89,20 @@ fn crossing(points: &[Point], card: fn(&Point) -> f64) -> Option<f64> {
         f64::from(two[0].patches) + share * f64::from(two[1].patches - two[0].patches)
     })
 }
-
 const HOW: &str = "The paper prints no points of the figure, only the rates in the text. The card's times come from \
-    the pipeline model. The host's times follow from its clock, its cache and the one printed rate: each element costs \
-    an addition that waits for the previous one, and a share of a cache line if the matrix exceeds the cache.";
-
+    the pipeline model. The host's times follow from its clock, its cache and its printed rate: each element costs an \
+    addition that waits for the previous addition and, if the matrix exceeds the cache, a share of a cache line from \
+    memory.";
 const BELIEF: &str = "In this model the card overtakes the host {} with one texel per element, and {} with four elements per texel. The authors \
-    expect this above {} patches, if at all. By their printed rates, the host's time would have to grow with the power {} of the number of patches \
-    from {} patches to that size, faster than the bytes that it reads.";
+    expect this above {} patches. For that, by their printed rates, the host's time would have to grow with the power {} of the number of patches, \
+    from {} patches to that number: faster than the number of bytes that the host reads.";
 
 fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<String>, StudyError> {
     let believed = printed_value("radiosity/crossing")?;
     let largest = points.last().map_or(0, |point| point.patches);
     let said = |card: fn(&Point) -> f64| match crossing(points, card) {
         Some(patches) => format!("at about {} patches", number(patches, 0)),
-        None => format!("nowhere up to {largest} patches"),
+        None => format!("at no size up to {largest} patches"),
     };
     // From the printed rates: the exponent by which the host's time must grow to equal the card's at the crossing of
     // the curves.

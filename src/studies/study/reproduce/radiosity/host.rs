@@ -1,8 +1,8 @@
 //! The paper's host: Gauss-Seidel on an Athlon, limited by memory bandwidth, as the text says.
 //!
-//! An element costs an addition that depends on the previous one, and, if the matrix does not fit the cache, its part
-//! of a cache line from memory. The matrix is read sequentially in every iteration. At the next read, a cache of C
-//! bytes still holds at most a fraction C / W of a matrix of W bytes.
+//! An element costs an addition that waits for the previous addition and, if the matrix does not fit into the cache, a
+//! share of a cache line from memory. The matrix is read sequentially in every iteration. At the next read, a cache of
+//! C bytes still holds at most a fraction C / W of a matrix of W bytes.
 
 use super::{PATCHES, PrintedRates, StudyError};
 
@@ -15,7 +15,7 @@ const ADD_CLOCKS: f64 = 4.0;
 /// Bytes per element: single precision, as on the card. A guess.
 const ELEMENT_BYTES: f64 = 4.0;
 
-/// Fraction of a matrix that is no longer in the cache at the next read.
+/// Fraction of a matrix that is no longer in the cache when it is read again.
 fn missed(patches: f64) -> f64 {
     (1.0 - CACHE_BYTES / (ELEMENT_BYTES * patches * patches)).max(0.0)
 }

@@ -12,22 +12,20 @@ use crate::report::{Cell, Table};
 use crate::study::reproduce::error::figure;
 use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, paragraph};
 
-/// Numbers of patches that are compared: six full blocks; six sides of 16 x 16; the four numbers consistent with both
-/// pairs of rates, with their neighbors; a round number.
+/// Numbers of patches that are compared: six full blocks; six sides of 16 x 16 patches; the four numbers consistent
+/// with both pairs of rates, with their neighbors; and a round number.
 const SIZES: [u32; 9] = [1524, 1536, 1539, 1540, 1541, 1542, 1543, 1544, 1600];
 /// Inputs of the inferred number of patches.
 const CHOSE_N: &str = "141 and 190 MFLOP/s, which determined the number of patches";
 /// Inputs of the rate on the card: the host's rates alone allow the same numbers of patches.
 const HOST_CHOSE_N: &str = "190 MFLOP/s and 40 iterations/s of the host, which determined the number of patches";
-
-const HOW: &str = "The paper prints neither the number of patches nor the number of passes. Both printed pairs of rates imply {} million operations \
-    per iteration; at two per element, this leaves {} to {} patches, and we use the first. So the rows of operations are calibrated; the number of \
-    passes would be {}. An iteration of this size is drawn on the emulated {} and timed by the pipeline model, which has no constant from this \
-    paper; the table lists other sizes.";
-
-const WHERE: &str = "Texture reads and partly filled quads take the time: each of a texel's two reads fetches {} bytes at a computed coordinate, for \
-    which a texture unit of {} bytes per clock takes {} clocks; of each quad of fragments, only {} % lie in the single target row. The unit's width \
-    and the slowdown by registers are guesses or others' measurements; `crossbar devices` lists them.";
+const HOW: &str = "The paper prints neither the number of patches nor the number of passes. Each printed pair of rates implies {} million \
+    operations per iteration. At two operations per matrix element, this leaves {} to {} patches, and we use the smallest number. So the rows of \
+    operations are calibrated; the number of passes would be {}. An iteration of this size is drawn on the emulated {} and timed by the pipeline \
+    model, which has no constant from this paper; the table lists other sizes.";
+const WHERE: &str = "Texture reads and partly filled quads take most of the time. Each of a texel's two reads fetches {} bytes at a computed \
+    coordinate; for this, a texture unit of {} bytes per clock takes {} clocks. The target is a single row, so only {} % of a quad's fragments \
+    lie in it. The unit's width and the slowdown by registers are guesses or others' measurements; `crossbar devices` lists them.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;
@@ -57,7 +55,7 @@ fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<
     let predicted = Dependence::Predicted { from: HOST_CHOSE_N };
     let of_host = (
         1.0 / host::iteration(PATCHES)?,
-        Dependence::Calibrated { on: "this figure, which determined the cost of memory" },
+        Dependence::Calibrated { on: "this figure, which determined the cost of memory reads" },
     );
     // The paper's own arithmetic: operations per iteration multiplied by the iteration rate.
     let (jacobi, gauss_seidel) = (model::mflops(PATCHES, card.per_s), model::mflops(PATCHES, host.per_s));
@@ -75,7 +73,7 @@ fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<
         long("radiosity/block-elements", texels)?,
         long("radiosity/block-instructions", rgb)?
             .with_readings([luminance])
-            .confined([limit - 3.0, limit], "a block has as many four-instruction texels as fit"),
+            .confined([limit - 3.0, limit], "a block has as many texels, of four instructions each, as fit"),
         paper_row("radiosity/jacobi-rate", (CARD, Method::Pipeline), (paper.per_s, predicted))?,
         paper_row("radiosity/jacobi-operations", (CARD, Method::Equation), (jacobi, calibrated))?,
         paper_row("radiosity/gauss-seidel-operations", (HOST, Method::Equation), (gauss_seidel, calibrated))?,
@@ -117,7 +115,9 @@ fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, StudyError> {
 
 fn costs() -> Result<Table, StudyError> {
     let mut table = Table::of(
-        format!("An iteration of {PATCHES} patches; four elements per texel: one channel, otherwise three"),
+        format!(
+            "An iteration of {PATCHES} patches: three channels (rgb), or one with four elements per texel (luminance)"
+        ),
         "packing storage passes draws texture_clocks arithmetic_clocks memory_clocks filled_% bandwidth_% \
          iterations_per_s bound_by",
     );

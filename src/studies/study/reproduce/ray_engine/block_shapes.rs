@@ -17,11 +17,11 @@ const DEVICES: [&str; 2] = ["r200", "nv35"];
 const SHAPES: [[u32; 2]; 6] = [[256, 1], [128, 2], [64, 4], [32, 8], [16, 16], [1, 256]];
 /// Triangles per pass, as in section 6.3.
 const TRIANGLES: usize = 10;
-
-const HOW: &str = "One pass tests {} triangles against the same 256 rays, in blocks of each shape. The scalar executor \
-    reads each texel through the card's texture cache, whose size and lines are guesses; misses are listed for half \
-    that cache, for that cache and for twice its size. The column lines counts distinct lines: the misses of an \
-    unlimited cache. The cards fill by quads of 2 x 2 pixels. The paper prints no figure, so nothing is judged.";
+const HOW: &str = "One pass tests {} triangles against the same 256 rays, arranged in blocks of each shape. The scalar \
+    executor reads each texel through a model of the card's texture cache, whose size and line length are guesses; \
+    misses are listed for half that size, for that size and for twice that size. The column lines counts the distinct \
+    cache lines that are read: the misses of an unlimited cache. The cards fill pixels in quads of 2 x 2. The paper \
+    prints no numbers for this, so nothing is judged.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (mesh, rays) = (mesh(TRIANGLES)?, moved_rays(16)?);

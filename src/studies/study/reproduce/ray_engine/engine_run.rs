@@ -1,4 +1,4 @@
-//! Run of the Ray Engine over a renderer's bundles: its work, and its time on the host and card of the paper.
+//! Run of the Ray Engine over a renderer's ray bundles: its work, and its time on the host and card of the paper.
 
 use refsim::device::Profile;
 use refsim::event::Event;
@@ -33,8 +33,8 @@ impl Run {
         Ok(Self { counts: engine.counts(), log: engine.take_log() })
     }
 
-    /// Mean fill of the buckets of the ray tree that hold rays, after each bundle of a workload, for an engine without
-    /// a card; 1 is a full bucket.
+    /// Mean fill of the ray tree's nonempty buckets after each bundle of a workload, for an engine without a card; a
+    /// full bucket counts as 1.
     pub(super) fn fill_of(work: &Workload, parameters: EngineParameters) -> Result<Vec<f64>, StudyError> {
         let parameters = EngineParameters { card: false, record: false, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
@@ -51,7 +51,7 @@ impl Run {
 }
 
 /// Rays per second of a run: the card draws at the measured fill rate, and transfers at the printed rates of the bus;
-/// the commands have these costs on the host.
+/// `commands` has the costs of commands on the host.
 pub(super) fn rays_per_s(run: &Run, host: &HostModel, commands: QueueFigures) -> Result<f64, StudyError> {
     let card = Model::new(Level::Rates, &Profile::named(TIMES)?).map_err(no_time)?;
     let options = Options { queue: commands, host: Some(host), ..Options::default() };

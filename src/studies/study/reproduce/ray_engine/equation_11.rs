@@ -32,7 +32,7 @@ pub(super) fn rates(device: &str) -> Result<CostRates, StudyError> {
 const READ_BACK: &str = "250 MB/s (read-back)";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let mut worked = Table::of("Worked examples, M/s", "figure device printed equation pipeline");
+    let mut worked = Table::of("Worked examples, in M/s", "figure device printed equation pipeline");
     let mut rows = Vec::new();
     for (id, gamma) in ["ray-engine/results-4", "ray-engine/results-16"].into_iter().zip(GAMMAS) {
         let equation = rates("nv20")?.results_per_s(gamma) / MEGA;
@@ -55,14 +55,15 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         model("nv20")?.clocks(&pixel.record).traffic.total() as f64 / pixel.record.counts.fragments.generated as f64;
     Ok(EntryFindings::new(
         [
-            "Equation 11 is seconds = T R / fill + R gamma / readback. The paper prints the GeForce3's fill and read-back rates. The GeForce4's fill \
-             rate follows from its tests per second at ten triangles, if it reads back as fast as the GeForce3. Each printed figure has one row: \
-             from the pipeline if it is drawn, from the equation if it is a quotient of printed values. The table has both."
+            "Equation 11: R rays and T triangles take T R / fill + R gamma / readback seconds, with gamma bytes per ray. The paper prints the \
+             GeForce3's fill and read-back rates. The GeForce4's fill rate follows from its tests per second at ten triangles, if it reads back as fast \
+             as the GeForce3. Each printed figure has one row: our value comes from the pipeline model if the figure can be drawn, and from the \
+             equation if the figure is a quotient of printed values. The table has both."
                 .into(),
             paragraph(
-                "The pipeline model has neither fill rate as an input, but reads back at the printed rate. It draws \
-                 screen-filling quads with two textures of the screen's size (each texel read once per quad), a depth \
-                 test, and depth and colour writes. Its bottleneck is {}: {} bytes per pixel.",
+                "The pipeline model uses neither of the fill rates, but reads back at the printed rate. It draws \
+                 screen-filling quads with two textures of the screen's size (each texel is read once per quad), a \
+                 depth test, and depth and colour writes. The bottleneck of such a draw is {}: {} bytes per pixel.",
                 [pixel.cost.bottleneck.to_string(), number(bytes, 0)],
             ),
         ],

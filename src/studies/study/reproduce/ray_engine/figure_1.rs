@@ -14,18 +14,17 @@ use crate::report::{Cell, Table};
 use crate::tracer::HostTracer;
 use crate::tracer::offset::unit_roundoff;
 
-/// Card that draws the map and the eye rays.
+/// Card that draws the environment map and the visible surfaces.
 const DRAWS: &str = "r200";
 /// Cards of the engine. The card that draws is not among them, because its fixed-point arithmetic leaks.
 const ENGINES: [&str; 2] = ["r300", "ideal-fp32"];
 const SIZE: [u32; 2] = [160, 120];
 /// Smallest difference that an 8-bit display shows.
 const STEP: f64 = 1.0 / 255.0;
-
 const HOW: &str = "The scene is our own, in {} x {} pixels with one ray per pixel: a boat, posts and houses in mirroring water with three waves. The \
-    reference is ray-cast on the host. A {} draws the environment map: the view is reflected at vertices, and looked up in a cube map of bytes. In \
-    the hybrid pictures that card draws the visible surfaces, and the engine casts reflection and shadow rays: the engine augments a rasterizer. \
-    Differences are in linear color, over the water pixels. The paper prints no figure.";
+    reference is ray-cast on the host. A {} draws the picture with the environment map: the view direction is reflected at vertices, and looked up \
+    in a cube map with byte texels. In the hybrid pictures, that card draws the visible surfaces, and the engine casts reflection and shadow rays. \
+    Differences are in linear color, over the water pixels. The paper prints no numbers for this figure.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let scene = scenes::named("harbour").ok_or("no scene `harbour`").on(DRAWS)?;
@@ -75,8 +74,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     Ok(EntryFindings::new([paragraph(HOW, [width, height, DRAWS.to_owned()])], [], [], [table]))
 }
 
-/// RMS and largest difference of a channel over some pixels, in 255ths, and the percentage of pixels that differ by
-/// more than one.
+/// RMS and largest difference of a channel over some pixels, in steps of 1/255, and the percentage of pixels that
+/// differ by more than one step.
 fn difference(one: &RenderedPicture, other: &RenderedPicture, pixels: &[usize]) -> [f64; 3] {
     let of = |&pixel: &usize| {
         let (a, b) = (one.color[pixel], other.color[pixel]);

@@ -35,9 +35,9 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     }
     Ok(EntryFindings {
         text: vec![
-            "The paper's figure is for rays that return only an id; our charts also show barycentric coordinates. Only two points of the curves are \
-             printed, at ten triangles; their rows are in the entry of section 6.1. T_min is the least number of triangles at which equation 11 is \
-             not slower than a host with the given tests per second; at half_rate_T, drawing and read-back take equally long."
+            "In the paper's figure, rays return only an id; our charts also show rays that return barycentric coordinates. Only two points of the curves \
+             are printed, at ten triangles; their rows are in the entry of section 6.1. T_min is the least number of triangles at which the card, by \
+             equation 11, is not slower than the host. At half_rate_T triangles, drawing and read-back take equally long."
                 .into(),
         ],
         tables: vec![limits],
@@ -73,6 +73,8 @@ fn chart(gamma: f64, lines: Vec<Series>) -> Result<NamedChart, StudyError> {
             printed: vec![Series { label: "printed".to_owned(), points }],
             ..Chart::default()
         },
-        caption: format!("Figure 7 of the Ray Engine paper for gamma = {gamma}, in both models."),
+        caption: format!(
+            "Figure 7 of the Ray Engine paper for {gamma} bytes per ray, by equation 11 and pipeline model."
+        ),
     })
 }

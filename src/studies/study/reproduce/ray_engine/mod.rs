@@ -1,11 +1,11 @@
 //! "The Ray Engine": its rates, equation 11, Figure 7, and Tables 1 to 5.
 //!
-//! The tables are rays per second of whole renderings. The paper's host is known by one value, the 135,812 rays per
-//! second of Table 3's first row; it calibrates the scale of the host model, with our counts for our teapot room.
-//! Everything else is predicted: the engine's work is run and counted, and the card's time follows from equation 11 and
-//! its commands. Scenes, pictures and octree are ours, since the paper prints none. Such choices are swept to show
-//! their influence: the octree of the host alone and the costs of commands ([`speed_ups`]), and the definition of a ray
-//! on the card ([`shares`]).
+//! The tables print rays per second of whole renderings. One printed value describes the paper's host: the 135,812 rays
+//! per second of Table 3's first row. With our counts for our teapot room, it calibrates the scale of the host model.
+//! Everything else is predicted: the engine runs and its work is counted; the card's time follows from equation 11 and
+//! the card's commands. Scenes, pictures and octree are ours, since the paper does not print its own. Sweeps show the
+//! influence of such choices: the octree of the host alone and the costs of commands ([`speed_ups`]), and the
+//! definition of a ray on the card ([`shares`]).
 
 pub(super) mod block_shapes;
 mod engine_run;

@@ -58,8 +58,8 @@ pub(super) fn results_per_s(device: &str, gamma: f64) -> Result<f64, StudyError>
     Ok(rays / model(device)?.read_back((rays * gamma) as u64).seconds())
 }
 
-/// Tests per second as in equation 11, measured: quads for `triangles` triangles over a screen of rays, then a
-/// read-back.
+/// Tests per second as in equation 11, but drawn and timed: quads for `triangles` triangles over a screen of rays, then
+/// a read-back.
 pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f64, StudyError> {
     let drawn = timed(device, screen_quads(device, triangles as usize)?)?;
     let rays = f64::from(SIDE * SIDE);

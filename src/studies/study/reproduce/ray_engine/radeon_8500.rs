@@ -25,12 +25,11 @@ const LEAK_SIDE: u32 = 96;
 const TRIANGLES: usize = 2048;
 /// Printed tests per second, in millions.
 const PRINTED: &str = "ray-engine/radeon-8500";
-
-const PAIRS: &str = "Thousands of triangles are tested against {} x {} rays, so the pixel program determines the rate. R200 is assumed to issue one \
-    pair of a colour and an alpha instruction per clock in each of its {} pipelines. No source states this rate. It was chosen because with it, and \
-    not with two pairs per clock, our program comes near the printed figure, which is {} pipeline clocks per test. The row uses our program for rays \
-    of any origin in the two textures of section 4.1; the program for rays of one origin is another reading. Bytes make rays coarser, but not the \
-    holes between triangles larger: programs for bytes and for 16 bits lose about equally many of the same {} rays, rounded to bytes.";
+const PAIRS: &str = "Thousands of triangles are tested against {} x {} rays, so the pixel program determines the rate. We assume that R200 issues \
+    one pair of a colour and an alpha instruction per clock in each of its {} pipelines; no source states this rate. With it, and not with two pairs \
+    per clock, our program comes near the printed figure, which is {} pipeline clocks per test. The row uses our program for rays of any origin in \
+    the two textures of section 4.1; the program for rays of one origin is another reading. Rays stored as bytes are coarser, but the cracks between \
+    triangles do not grow: the programs for bytes and for 16 bits lose about equally many of the same {} rays, rounded to bytes.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (rows, tables) = kernels()?;
@@ -62,7 +61,7 @@ fn kernels() -> Result<([PaperRow; 2], [Table; 1]), StudyError> {
         Ok::<_, StudyError>(drawn.pixels_per_s() / MEGA)
     };
     let (in_bytes, one_origin) = (rate(&card.clone().byte_rays(), &moved_rays(SIDE)?)?, rate(&card, &eye_rays(SIDE)?)?);
-    let on = "this figure, which determined one pair per clock for r200, not two";
+    let on = "this figure, which determined that r200 issues one pair per clock, not two";
     let row = |id, over| {
         let ours = (in_bytes / over, Dependence::Calibrated { on });
         Ok::<_, StudyError>(paper_row(id, (DEVICE, Method::Pipeline), ours)?.with_readings([one_origin / over]))
@@ -71,7 +70,7 @@ fn kernels() -> Result<([PaperRow; 2], [Table; 1]), StudyError> {
     Ok((rows, [leaks(&mesh)?]))
 }
 
-/// Table of leaks by the precision of the ray textures and the card's rounding, for rays that bytes hold exactly.
+/// Table of leaks by the precision of the ray textures and the card's rounding, for rays that bytes represent exactly.
 fn leaks(mesh: &Mesh) -> Result<Table, StudyError> {
     let mut table = Table::of("Leaks of 8-bit rays", "rounding rays_that_hit leaks_from_bytes leaks_from_16_bits");
     for rounding in ["rdn", "rne"] {
@@ -90,8 +89,8 @@ fn leaks(mesh: &Mesh) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Times of intersections by each card's program for rays of any origin: with two byte textures on the first card, with
-/// float textures on the others.
+/// Times of intersections by each card's program for rays of any origin: the first card has two byte textures, the
+/// others have float textures.
 pub(in crate::study::reproduce) fn timed_tests() -> Result<Vec<TimedWork>, StudyError> {
     let (mesh, rays) = (mesh(TRIANGLES)?, moved_rays(SIDE)?);
     let on = |device| {

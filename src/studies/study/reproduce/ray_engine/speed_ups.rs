@@ -15,7 +15,7 @@ use crate::ray_engine::engine::{EngineParameters, Readback};
 use crate::report::{Cell, Table};
 use crate::tracer::octree::OctreeParameters;
 
-/// Factors for the guessed costs of commands, in halves: 1, 1.5, 2 and 3.
+/// Factors for the guessed costs of commands, each multiplied by 2: the factors are 1, 1.5, 2 and 3.
 const HALVES: [u64; 4] = [2, 3, 4, 6];
 /// Triangles per leaf of the host's octree.
 const LEAVES: [usize; 8] = [4, 6, 8, 9, 10, 11, 12, 16];
@@ -143,7 +143,7 @@ fn scaled(halves: u64) -> QueueFigures {
 }
 
 /// Sweep of the host-alone octree by the triangles of its leaves; the engine keeps its own octree. The host is
-/// recalibrated for each setting, so that its time for the new counts is the printed one.
+/// recalibrated for each setting, so that its time for the new counts is the printed time.
 fn host_leaf(room: &TeapotRoom, runs: &[Arc<Run>]) -> Result<Sweep, StudyError> {
     let setting = |most_triangles: usize| {
         let alone = room.work.alone_with(OctreeParameters { most_triangles, ..OCTREE });

@@ -13,8 +13,8 @@ use super::{EntryFindings, Method, PaperRow, Shared, StudyError, paper_row, prin
 use crate::ray_engine::engine::EngineParameters;
 use crate::report::{Cell, NamedChart, Table};
 
-/// Line in both tables: its name in those of its figures, the figure of its polygons, its name in the chart, its
-/// picture, and the number of rays at which a cell's cache is sent to the card (`R_min`).
+/// Line of both tables: its name in figure names, the figure of its polygons, its name in the chart, its picture, and
+/// the number of rays at which a cell's cache is sent to the card (`R_min`).
 type PrintedScene = (&'static str, &'static str, &'static str, Option<Job>, usize);
 
 const EYES: Job = Job { scene: "office-floor", view: Some("top"), renderer: JobRenderer::Eyes, side: 512 };
@@ -29,13 +29,11 @@ const SCENES: [PrintedScene; 5] = [
     ("floor-top", "polygons-floor", "floor, top", Some(EYES), 64),
     ("floor-side", "polygons-floor", "floor, side", Some(Job { view: Some("side"), ..EYES }), 64),
 ];
-
-const HOW: &str = "Five renderings as in Table 1 use scenes with as many polygons, on the host that Table 3 calibrates. The paper does not describe \
-    the scenes, pictures and octrees. Its first row has a hand-tuned octree; ours uses the octree of all runs.";
-
-const READINGS: &str = "A printed share of rays on the card has two readings: rays that met the card at least once, among all rays; and visits to \
-    the caches of GPU cells that ended on the card, among all visits, of which the rest was forced to the host. The text does not decide between \
-    them. Rows use the first, which was chosen before any of them was computed.";
+const HOW: &str = "Five renderings like those of Table 1 use scenes with the printed numbers of polygons, on the host that Table 3 calibrates. The \
+    paper does not describe its scenes, pictures and octrees. The octree of its first row was tuned by hand; we use one octree for all runs.";
+const READINGS: &str = "The printed share of rays on the card has two readings: the rays that met the card at least once, among all rays; or the \
+    visits to the caches of GPU cells that ended on the card, among all visits (the other visits were forced to the host). The text does not \
+    decide between them. Rows use the first reading, which we chose before we computed any share.";
 
 struct SceneRun {
     run: Arc<Run>,
@@ -76,7 +74,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         charts: vec![NamedChart {
             name: "ray-engine-table-2".into(),
             chart: shares::chart(&shares, &SCENES.map(|(_, _, tick, ..)| tick), "Share of rays on the card")?,
-            caption: "Table 2, and both readings of our runs.".into(),
+            caption: "Printed shares of Table 2, and our shares by both readings.".into(),
         }],
         ..EntryFindings::default()
     })

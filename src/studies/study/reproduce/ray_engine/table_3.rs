@@ -8,11 +8,10 @@ use super::{EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_r
 use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 3";
-
-const OCTREE: &str = "The octree of the host alone matters most: its time per ray is the unit of all our times. The sweep gives the speed-ups by the \
-    triangles in its leaves; the engine keeps its own octree, and the host is recalibrated each time. From {} to {} triangles the infinitely fast \
-    card's speed-up goes from {} to {} %, the largest step of the sweep: the rays of our room fall on either side of a knife-edge of our mesh. Rows \
-    use {}, which was chosen before any of them was computed, for host and engine alike.";
+const OCTREE: &str = "The octree of the host alone matters most, because the host's time per ray is the unit of all our times. The sweep varies the \
+    number of triangles in its leaves; the engine keeps its own octree, and the host is recalibrated each time. The largest step of the sweep is \
+    from {} to {} triangles, where the speed-up of the infinitely fast card goes from {} to {} %; its size depends on our mesh. Rows use {} \
+    triangles, for host and engine alike; we chose this number before we computed any row.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
@@ -41,7 +40,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Row for the cost of synchronous read-back: speed-ups of "asynchronous read-back" minus "plus card", in points.
+/// Row for the cost of synchronous read-back: speed-up by asynchronous read-back minus that of "plus card", in points.
 fn readback(lines: &[&SpeedUpRun]) -> Result<PaperRow, StudyError> {
     let ours = |name: &str| lines.iter().find(|line| line.name == name).map_or(f64::NAN, |line| line.ours());
     let lost = ours("asynchronous read-back") - ours("plus card");
@@ -58,8 +57,8 @@ fn passes(lines: &[&SpeedUpRun]) -> String {
     let ([printed_all, printed_wait], [our_all, our_wait]) =
         (of(|line| line.row.target.value), of(|line| line.row.ours));
     paragraph(
-        "A pass holds {} of our rays, and each ray meets the card {} times. By this count the printed figures leave {} \
-         us per pass, of which asynchronous read-back saves {} us; ours are {} us and {} us.",
+        "A pass of our run holds {} rays, and each ray meets the card {} times. With these counts, the printed figures imply that a pass takes {} us more \
+         than with an infinitely fast card, and that asynchronous read-back saves {} us of this time; our figures imply {} us and {} us.",
         [
             number(counts.pass_rays as f64 / counts.passes as f64, 1),
             number(counts.pass_rays as f64 / counts.rays as f64, 1),

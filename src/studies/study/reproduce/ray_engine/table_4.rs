@@ -6,10 +6,9 @@ use super::teapot::{QUESTION, how};
 use super::{EntryFindings, Shared, StudyError, number, paragraph};
 
 const PLACE: &str = "Table 4";
-
-const ORDER: &str = "In the paper, the widest range sends the fewest rays to the card. Ours cannot: a GPU cell is the \
-    largest cell whose number of triangles lies in the range, so a wider range gives more GPU cells, and more rays \
-    meet one. Our speed-ups are {}, {} and {} % for the printed {}, {} and {} %.";
+const ORDER: &str = "In the paper, the widest range sends the fewest rays to the card. Our rule cannot do this: a GPU \
+    cell is the largest cell whose number of triangles lies in the range, so a wider range gives more GPU cells, and \
+    more rays meet such a cell. Our speed-ups are {}, {} and {} %; the paper has {}, {} and {} %.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let found = shared.get::<SpeedUps>(())?;

@@ -7,13 +7,12 @@ use super::{Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, num
 use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 5";
-
-const SIZE: &str = "Larger passes cost less per ray, but more caches never fill, and their rays are forced to the \
-    host: {} per ray at {}, {} at {}. Commands make up most of a pass's cost, and their costs are guesses; the sweep \
-    multiplies all of them by one factor, for the rows of all three tables.";
+const SIZE: &str = "Larger passes cost less per ray, but more caches never fill, and the rays in them are forced to \
+    the host: {} times per ray at {}, {} times at {}. Commands make up most of a pass's cost, and their costs are \
+    guesses; the sweep multiplies all of them by one factor, for the rows of all three tables.";
 const FILL: &str = "Section 5.3 states how full the buckets of the ray tree typically are. The rows have the mean fill \
-    of buckets with rays, after each bundle of the room's rays, before any leaves for lack of others. Figures 4 and 6 \
-    of the paper are pictures: `crossbar leaky-teapot` and `crossbar render` draw them.";
+    of nonempty buckets after each bundle of the room's rays, before the engine empties partly filled buckets. Figures \
+    4 and 6 of the paper are pictures: `crossbar leaky-teapot` and `crossbar render` draw them.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
@@ -30,7 +29,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         charts: vec![NamedChart {
             name: "ray-engine-table-5".into(),
             chart: chart(&found, &lines),
-            caption: "Table 5, with command costs as stated and higher.".into(),
+            caption: "Table 5, with the guessed command costs and with higher costs.".into(),
         }],
         ..EntryFindings::default()
     })

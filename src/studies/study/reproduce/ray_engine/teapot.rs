@@ -23,11 +23,11 @@ const SEED: u64 = 2002;
 
 pub(super) const QUESTION: &str = "the authors' scene, picture and octree, the cost of their driver's commands, and \
     how often their rays met the card.";
-
-const HOW: &str = "The teapot room is rendered by Whitted ray tracing at {} x {} pixels, and the renderer's requests are replayed to the engine: \
-    every ray goes through ray tree, octree and caches, and the emulated card draws every pass in fp32. The host's work is counted operation by \
-    operation with the guessed weights of the host model, scaled so that the host alone casts the {} rays/s of Table 3's first row: the only \
-    calibrated figure. Draws run at the GeForce4's fill rate, read-backs at its bus rate, commands at the guessed costs of every timeline.";
+const HOW: &str = "The teapot room is rendered by Whitted ray tracing at {} x {} pixels, and the engine traces the renderer's rays: every ray \
+    goes through the ray tree, the octree and the caches, and the emulated card draws every pass in fp32. The host's operations are counted and \
+    multiplied by the guessed weights of the host model. The scale of these weights is the only calibrated constant: with it, the host alone \
+    casts the {} rays/s of Table 3's first row. Draws run at the GeForce4's fill rate, and read-backs at its bus rate; each command costs the \
+    guessed time that every timeline uses.";
 
 pub(super) fn how() -> String {
     let side = || CLASSICAL_TEAPOT.side.to_string();

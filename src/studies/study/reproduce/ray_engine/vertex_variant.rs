@@ -16,10 +16,9 @@ use crate::scene::Camera;
 const DEVICES: [&str; 3] = ["nv20", "nv25", "r200"];
 /// Printed tests per second, in millions.
 const PRINTED: &str = "ray-engine/vertex-tests";
-
-const HOW: &str = "The paper's rejected alternative: constants hold a ray, and a triangle is three vertices that cover the ray's pixel if it is hit. \
-    Our program (vertex_test.vsa) gives the results of the pixel pipelines with {} instructions and {} vertices per test. The paper names no card: \
-    on {}, the printed figure would be {} clocks per test.";
+const HOW: &str = "The paper describes this alternative, but rejects it: constants hold a ray, and a triangle is three vertices, which cover the \
+    ray's pixel if the ray hits. Our program (vertex_test.vsa) gives the results of the pixel programs with {} instructions per vertex and {} \
+    vertices per test. The paper does not say which card it means: on {}, the printed figure would be {} clocks per test.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (mut rates, mut numbers) = (Vec::new(), Vec::new());

@@ -13,8 +13,8 @@ use crate::tracer::{self, CastError, Caster, HostTracer};
 
 /// Card of the modelled time: "execution rates measured on the GeForce 4".
 pub(super) const TIMES: &str = "nv25";
-/// Octree of all runs, for host and engine alike. The paper does not print its own; ours was chosen before any table
-/// was computed.
+/// Octree of all runs, for host and engine alike. The paper does not describe its octree; we chose ours before we
+/// computed any table.
 pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8, most_depth: 10 };
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,7 +15,7 @@ const QUANTITIES: [(&str, Quantity); 5] = [
     ("error", Quantity::Error),
 ];
 
-/// Encodes a cell, as in `decimals2 0.125 *`; folded rows become their text.
+/// Encodes a cell, as in `decimals2 0.125 *`; a folded cell becomes its text.
 pub(super) fn coded(cell: &Cell) -> String {
     match cell {
         Cell::Empty => String::new(),

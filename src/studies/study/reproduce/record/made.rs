@@ -9,7 +9,7 @@ const RECORDED: &str = "Rows and tables are recorded: `{}`, version {} ({}), {}.
 const CONFIRMED: &str =
     "All rows were recomputed at full size, with the same bits as the record: `{}`, version {} ({}), {}.";
 const DIFFERS: &str = "All rows were recomputed at full size; {} from the record: `{}`, version {} ({}), {}. \
-    Either another program made the record, or this program does not compute the same everywhere.";
+    Either a different version of the program made the record, or this version computes other bits on this machine.";
 
 /// Provenance of a record.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

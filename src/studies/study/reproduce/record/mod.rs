@@ -1,6 +1,6 @@
-//! Recorded runs at full size, which judge the rows of entries that take minutes to hours of processor time.
+//! Recorded runs at full size: they decide the verdicts of entries that take minutes to hours of processor time.
 //!
-//! A record is a file of `src/studies/records`, which the program contains: the result of a run on models of the
+//! A record is a file of `src/studies/records`, embedded in the program. It holds the result of a run on models of the
 //! printed size, with its command, version, commit and times. It has no verdicts: the bounds in the data judge rows.
 //!
 //! docs/decisions/0026-recorded-rows.md explains this.
@@ -28,7 +28,7 @@ pub fn recorded(entry: &ReproduceEntry) -> Result<Option<&'static EntryRecord>, 
     Ok(records.iter().find(|record| record.entry == entry.id))
 }
 
-/// Returns the findings of an entry's record; computes them if there is no record, or at full size.
+/// Returns the findings of an entry's record; computes them if there is no record, or if `full_size` is set.
 pub(super) fn findings(entry: &ReproduceEntry, full_size: bool, shared: &Shared) -> Result<EntryFindings, StudyError> {
     match recorded(entry)? {
         Some(record) if full_size => Ok(compared(record, entry.run(shared)?)),

@@ -19,18 +19,18 @@ pub enum Bound {
     },
     /// At least the paper's value.
     AtLeast,
-    /// On the same side of 1 as the paper's ratio: the same one of two values is larger.
+    /// On the same side of 1 as the paper's ratio, so that the larger one of two values is the same.
     Order,
     /// Too vague to be tested.
     TooVague,
 }
 
 impl Bound {
-    /// Allowed relative difference of a prediction, unless a narrower one can be stated.
+    /// Allowed relative difference of a prediction, unless a narrower bound can be stated.
     pub const SHARE: f64 = 0.15;
 
     /// Smallest and largest value within the bound around a printed value, whose rounding error is at most `rounding`;
-    /// `None` if any value is within.
+    /// `None` if the text is too vague.
     pub fn interval(&self, printed: f64, rounding: f64) -> Option<[f64; 2]> {
         let around = |by: f64| Some([printed - by, printed + by]);
         match *self {

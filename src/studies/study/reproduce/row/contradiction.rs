@@ -17,7 +17,7 @@ pub struct Contradiction {
 
 impl Contradiction {
     /// Contradiction of a figure by a value computed from other printed values, with a description of the computation;
-    /// `None` if the value rounds to the printed one.
+    /// `None` if the value rounds to the printed value.
     pub fn between(figure: &PaperFigure, computed: f64, how: &str) -> Option<Self> {
         let decimals = figure.decimals + u8::from(figure.value.abs() < 1000.0);
         let text = || format!("{} {}: {how}", number(computed, decimals), figure.unit);

@@ -27,6 +27,6 @@ impl Explanation {
 
     /// Reason as a sentence, with the row's value at the setting.
     pub fn text(&self) -> String {
-        format!("{}, this one with {}", self.reason(), number(self.value, u8::from(self.value < 1000.0)))
+        format!("{}; the value of this row is {}", self.reason(), number(self.value, u8::from(self.value < 1000.0)))
     }
 }

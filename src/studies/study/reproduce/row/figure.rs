@@ -35,7 +35,7 @@ pub enum Judgement {
     Not(String),
 }
 
-/// Reason why a row is missed, if known. Only missed rows have one; it does not change the verdict.
+/// Reason why a row is missed, if known. Only missed rows have a reason; it does not change the verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantArray)]
 pub enum MissClass {
     /// The text allows several readings, or leaves a choice in the method open.
@@ -50,7 +50,7 @@ pub enum MissClass {
     /// Our method or model deliberately differs from the paper's.
     #[strum(to_string = "ours differs")]
     OursDiffers,
-    /// Our result has less error, storage or work than the printed one.
+    /// Our result has less error, storage or work than the printed result.
     #[strum(to_string = "ours differs, for the better")]
     OursBetter,
     /// Another section of the paper contradicts the figure, and our value agrees with neither.
@@ -58,7 +58,7 @@ pub enum MissClass {
     PaperContradicts,
 }
 
-/// A number that a paper prints or implies, and how ours is judged by it.
+/// A number that a paper prints or implies, and the judgement of our value by it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFigure {
     /// Paper.
@@ -77,7 +77,7 @@ pub struct PaperFigure {
     pub place: String,
     /// Origin: printed, implied or inferred.
     pub origin: Origin,
-    /// Bound of the row that judges it, or the reason why there is none.
+    /// Bound of the row that judges it, or the reason why no row judges it.
     pub judgement: Judgement,
     /// Date on which the judgement was stated or last changed.
     pub stated: String,
@@ -102,7 +102,7 @@ pub struct PaperEquation {
     pub uses: Option<String>,
     /// Printed values that determined a constant of the expression.
     pub chose: Option<String>,
-    /// Description of the computation, if a value that does not round to the printed one contradicts it.
+    /// Description of the computation, if it contradicts the printed value whenever its result does not round to that.
     pub contradicts: Option<String>,
 }
 

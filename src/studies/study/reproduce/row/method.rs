@@ -40,8 +40,8 @@ pub enum Dependence {
         /// Printed values that were used; may be empty.
         from: &'static str,
     },
-    /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so agreement is
-    /// not evidence.
+    /// Calibration: the value itself, or a value that follows from it, determined a constant of the model, so agreement
+    /// is not evidence.
     Calibrated {
         /// Printed values that determined the constant.
         on: &'static str,
@@ -51,7 +51,7 @@ pub enum Dependence {
 }
 
 impl Dependence {
-    /// Dependence from the printed values that determined a constant, or else predicted the value.
+    /// Dependence on printed values: `on` determined a constant, `from` predicted the value; without both, a count.
     pub(in crate::study::reproduce) fn new(on: Option<&'static str>, from: Option<&'static str>) -> Self {
         match (on, from) {
             (Some(on), _) => Self::Calibrated { on },

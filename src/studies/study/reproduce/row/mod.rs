@@ -1,8 +1,8 @@
 //! Rows: a printed value of a paper and ours, with a bound and the verdict.
 //!
 //! Verdicts follow from the computation of a value ([`Method`], [`Dependence`], the range that confines it) and from
-//! the bound. Only a [`Sweep`] of the same run creates [`Explanation`]s, only computations from printed values create
-//! [`Contradiction`]s; calibrated values are listed separately and still have to lie within their bounds.
+//! the bound. Only a [`Sweep`] of the same run creates [`Explanation`]s; only computations from printed values create
+//! [`Contradiction`]s. Calibrated values are listed separately, and still have to lie within their bounds.
 
 mod bound;
 mod contradiction;
@@ -22,7 +22,7 @@ pub use verdict::RowVerdict;
 
 use super::prose::ends;
 
-/// Row: a value of a paper with ours.
+/// Row: a value of a paper, compared with ours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperRow {
     /// Card or host.
@@ -59,7 +59,7 @@ pub enum RowSource {
     /// Computed in this run at full size; the recorded value has the same bits.
     #[strum(to_string = "recorded and computed")]
     Confirmed,
-    /// Computed in this run at full size; the recorded value has other bits.
+    /// Computed in this run at full size; the recorded value has different bits.
     #[strum(to_string = "computed, not as recorded")]
     Differs {
         /// Recorded value.
@@ -109,7 +109,7 @@ impl PaperRow {
         self.confined
     }
 
-    /// Adds a self-contradiction of the paper, if there is one.
+    /// Adds a contradiction of the paper with itself; `None` adds nothing.
     #[must_use]
     pub fn contradicted(self, contradiction: Option<Contradiction>) -> Self {
         Self { contradiction, ..self }
@@ -120,7 +120,7 @@ impl PaperRow {
         self.bound.interval(self.target.value, self.target.rounding())
     }
 
-    /// Returns `true` if our value could be `value` within the bound; always `false` if the text is too vague.
+    /// Returns `true` if `value` lies within the bound; always `false` if the text is too vague.
     pub fn admits(&self, value: f64) -> bool {
         self.bound.admits(self.target.value, self.target.rounding(), value)
     }

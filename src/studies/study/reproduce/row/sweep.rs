@@ -27,7 +27,7 @@ pub struct Sweep {
 impl Sweep {
     /// Explains rows outside their bounds by one setting at which they lie within them: the first of the settings that
     /// explain the most rows. A single card or host must satisfy all rows, so a setting explains nothing if it moves a
-    /// row out of its bound. Calibrated rows are never explained, and contradictory ones are ignored.
+    /// row out of its bound. Calibrated rows are never explained; contradictory rows are ignored.
     pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
         let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         let open = |row: &PaperRow| {
@@ -60,8 +60,8 @@ impl Sweep {
         }
     }
 
-    /// Table with a line per row and a column per setting; values within their bounds are marked. `show` converts the
-    /// values to its unit, if it has one.
+    /// Table with a line per row and a column per setting; values within their bounds are marked. `show` gives a unit
+    /// other than the row's, if there is one, and converts values to it.
     pub fn table(&self, title: &str, rows: &[PaperRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
         let (unit, show) = show;
         let settings =

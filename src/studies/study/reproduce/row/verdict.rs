@@ -23,13 +23,13 @@ pub enum RowVerdict {
     Missed,
     /// The paper contradicts itself, and our value agrees with one of the contradicting values.
     Contradictory,
-    /// The text is too vague to be tested; not a success either.
+    /// The text is too vague to be tested; this is not a success.
     #[strum(to_string = "too vague to judge")]
     TooVague,
 }
 
 impl RowVerdict {
-    /// Words that follow a number of rows, as in "3 predicted within bounds in numbers".
+    /// Words that follow a number of rows, as in "3 predicted within numerical bounds".
     pub const fn of_rows(self) -> &'static str {
         match self {
             Self::Predicted => "predicted within numerical bounds",

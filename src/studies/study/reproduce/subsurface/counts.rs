@@ -13,11 +13,11 @@ use crate::scene::built::meshes;
 /// Models of Table 1, and our stand-ins with as many faces.
 pub(super) const MODELS: [(&str, &str); 3] =
     [("head", "stand-in-head"), ("dolphin", "stand-in-dolphin"), ("bunny", "stanford-bunny")];
-
-const HOW: &str = "Lookups are counted per texel, as our programs are drawn: {} fixed links take {}, adaptive links {}. Adaptive links need one \
-    sampler more than the card has, so a second pass reads the sum of the first; with link textures as tiles of a larger texture they take {} in a \
-    single pass. The paper does not say how its card stored the links. The clustering is our own, since the paper's is described in another paper; \
-    its required result, a binary tree with a leaf per face, is counted on stand-ins with as many faces.";
+const HOW: &str = "Texture lookups per texel are counted while our programs are drawn: {} fixed links take {} lookups, adaptive links {}. Adaptive \
+    links need one sampler more than the card has, so a second pass reads the sum of the first pass. If the link textures are tiles of a larger \
+    texture, a single pass suffices, with {} lookups. The paper does not say how its card stored the links. The clustering is our own, since \
+    another paper describes the authors'. Its required result, a binary tree with one leaf per face, is counted on stand-ins with as many faces as \
+    the paper's models.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
@@ -52,7 +52,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(EntryFindings::new(
         [paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
         rows,
-        ["the authors' clustering of faces, and which of the two choices of links was timed."],
+        ["the authors' clustering of faces, and which of the two kinds of links was timed."],
         [programs(&costs), held],
     ))
 }

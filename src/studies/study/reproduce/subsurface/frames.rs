@@ -24,16 +24,15 @@ const OTHER_CARD: &str = "fx5800";
 const EVALUATION_CLOCKS: f64 = 2.0 * (95.0 + 27.0 + 20.0);
 /// Clock of this host in Hz (Tom's Hardware).
 const HOST_HZ: f64 = 2.083e9;
-
-const HOW: &str = "Passes 1 and 3 are drawn with stand-in models that have the paper's face counts, per vertex as in the paper; the transmittance towards \
-    the eye is read from a texture. The window has {} x {} pixels; the paper does not give its size. Links are fixed, and the map has 8-bit texels, whose \
-    mip levels the card generates.";
-const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so a frame takes a whole number of \
-    periods of {} ms: the modelled rates are {} over the periods that the three passes and the map's levels need. The \
-    printed shares include the waits, so the printed times of passes are upper bounds, most of all for the shorter \
-    passes: the dolphin's first pass is printed with {} ms at the smaller atlas and with {} ms at the larger one.";
-const HOST: &str = "Link time is one evaluation of R_d per link on the host of section three of the paper; the paper \
-    does not name the host that computed links. The cost of an evaluation is our guess.";
+const HOW: &str = "Passes 1 and 3 are drawn with stand-in models that have the paper's face counts. Light is computed per vertex, as in the paper; the \
+    transmittance towards the eye is read from a texture. The window has {} x {} pixels; the paper does not give its size. Links are fixed, and the map \
+    has 8-bit texels, whose mip levels the card generates.";
+const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so a frame takes a whole number of periods of {} ms. The modelled \
+    rates are {} Hz divided by the number of periods that the three passes and the map's levels need. The printed shares include the waits, so the \
+    printed times of passes are upper bounds, above all for the shorter passes: the dolphin's first pass takes {} ms in print with the smaller atlas, \
+    but {} ms with the larger one.";
+const HOST: &str = "The time to compute links is that of one evaluation of R_d per link on the host of section 3; the \
+    paper does not say which host computed links. The cost of an evaluation is our guess.";
 
 const QUESTION: &str =
     "the size of the window, the model of Figure 7, the host that computed links, and what it evaluated per link.";
@@ -81,7 +80,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Rows for the times of the passes of one frame: 1 and 3 always; 2 unless Table 1's own entry judges it.
+/// Rows for the times of passes 1 and 3 of a frame, and of pass 2 unless the entry of Table 1 judges it.
 fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<Vec<PaperRow>, StudyError> {
     let gather = (printed.side == SIDES[0]).then_some(gather);
     let ours = [Some(cost.light + cost.levels), gather, Some(cost.view)];
@@ -127,7 +126,7 @@ fn figure_7() -> Result<PaperRow, StudyError> {
 
 fn table(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Table {
     let mut table = Table::of(
-        "Frame times on the emulated card in ms, with display periods, ours and printed",
+        "Frame times on the emulated card in ms, and display periods per frame, ours and printed",
         "model atlas pass_1_ms levels_ms pass_2_ms pass_3_ms frame_ms frames_per_s periods printed_periods",
     );
     for (printed, cost) in frames {

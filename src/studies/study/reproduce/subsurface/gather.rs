@@ -2,7 +2,7 @@
 //!
 //! The time of a pass over a square is quadratic in its side: each texel costs the same, quads along the diagonal of
 //! the two triangles are shaded twice, and each draw has a fixed cost. So the time for a large square is extrapolated
-//! from three small ones.
+//! from three small squares.
 
 use refsim::device::Profile;
 use refsim::event::Event;
@@ -120,7 +120,7 @@ fn lookups(log: &[PassEvent]) -> f64 {
     draws.map(|fragments| fragments.fetches.iter().sum::<u64>() as f64 / fragments.shaded as f64).sum()
 }
 
-/// A square of the medium.
+/// A square made of the medium, whose atlas has `side` texels per side.
 fn square(side: u32) -> Result<CardModel, Box<dyn std::error::Error + Send + Sync>> {
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     Ok(CardModel::new(&Atlas::new(&Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?, side)?))

@@ -60,12 +60,12 @@ const LOCKED_WITHIN: f64 = 0.03;
 const ALL_BUT_ROUNDING: f64 = 98.5;
 /// Texels along a side.
 pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];
-
-const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions of the rate of a display of about {} Hz. So frames wait for the \
-    display, and only the second pass at {} x {} shows the card's speed: it is the longest part, and equal on all models within {} %.";
+const LOCKED: &str = "The six frame rates, multiplied by {}, are {} to {}: each is a whole fraction of the rate of a display of about {} Hz. So \
+    frames wait for the display. Only the second pass at {} x {} shows the card's speed: it takes longest, and its time differs between models \
+    by at most {} %.";
 const OPEN: &str = "The paper states neither the format of the radiosity map nor which links were timed. The rows use \
-    fixed links and an 8-bit map, which automatic mipmaps (section 4.2.2) need on this card; the table has every \
-    variant, for every card of the time. The variants differ by a factor of {}.";
+    fixed links and an 8-bit map, because automatic mipmaps (section 4.2.2) need such a map on this card. The table \
+    has every variant, for four cards of the time. The variants differ by a factor of {}.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
@@ -88,7 +88,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Contradiction of the passes' times by the display: the rates are whole periods, and the passes' shares sum to the
+/// Contradiction of the passes' times by the display: frames take whole periods, and the passes' shares sum to the
 /// frame, so the times contain waits. The computation uses only the paper's values.
 pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
     let on_periods = printed.iter().all(|frame| (frame.periods() * frame.rate / DISPLAY - 1.0).abs() < LOCKED_WITHIN);
@@ -101,8 +101,8 @@ pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
     });
     let [factors, low, high] = locked(printed);
     let computation = format!(
-        "the six frame rates times {factors} are {low} to {high}, whole periods of one display, and the shares of the \
-         passes sum to {} % of the frame or more, so they include waits{}",
+        "the six frame rates, multiplied by {factors}, are {low} to {high}, so frames take whole periods of a display; the \
+         shares of the passes sum to {} % of the frame or more, so the passes include waits{}",
         number(least, 0),
         shorter.map_or_else(String::new, |frame| format!(
             "; pass 1 of the {} takes more than twice as long at the smaller size",
@@ -122,7 +122,7 @@ fn locked(printed: &[PrintedFrame]) -> [String; 3] {
 /// Table of pass 2 at 1024 x 1024 for each variant on each card.
 fn variants(shared: &Shared, costs: &[GatherCost]) -> Result<Table, StudyError> {
     let mut table = Table::of(
-        "Pass 2 with 16 links at 1024 x 1024 in ms, by the pipeline model; the paper has 55.2 to 56.4",
+        "Pass 2 with 16 links at 1024 x 1024 in ms, by the pipeline model; the paper implies 55.2 to 56.4",
         "variant fx5900 nv35 fx5800 nv30 ns_per_link",
     );
     let others = OTHER_CARDS.map(|card| shared.get::<Vec<GatherCost>>(card));

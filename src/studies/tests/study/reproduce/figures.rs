@@ -135,7 +135,7 @@ fn silent_changes_are_refused() {
         r#"value = "5", bound = "15 %", reading = "late""#,
     ] {
         let error = restated(changed).expect_err("a silent change");
-        assert!(error.contains("List the old one"), "{error}");
+        assert!(error.contains("List what it was before"), "{error}");
     }
 }
 

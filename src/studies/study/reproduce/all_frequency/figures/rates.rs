@@ -47,7 +47,7 @@ fn of_ground(omega: f64) -> (u64, Multiplies) {
     (vertices, Multiplies { per_cluster: clusters * per_vector * COEFFICIENTS, per_vertex: entries * per_vector })
 }
 
-/// Fraction of the segments above the horizon of an open ground.
+/// Fraction of the segments that are above the horizon of an open ground.
 const OPEN_GROUND: f64 = 0.5;
 
 /// Cost of the diffuse Buddha with its ground under a light whose fraction of nonzero coefficients is `share`; columns

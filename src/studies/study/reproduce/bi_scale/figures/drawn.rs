@@ -108,7 +108,7 @@ impl DrawnFigure {
     }
 }
 
-/// Computes L~ by low-frequency bi-scale transfer, with harmonics for both directions.
+/// Computes the local light L~ by low-frequency bi-scale transfer, with harmonics for both directions.
 fn low_frequency(
     rendering: &BiScaleRendering,
     matrix: &SparseMatrix,
