@@ -17,17 +17,17 @@ Examples:
   crossbar radiosity cornell-room-blocks --packing rgb --packing luminance --storage fp32 --storage fp16 --picture-after 1,2,4,8
       both packings in both precisions, and pictures of the room after some iterations
   crossbar radiosity docs/examples/room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
-      a scene of your own, on the host alone
+      your own scene, on the host alone
   crossbar radiosity cornell-room-blocks --patches 300 --solver direct --caster engine --caster-format s3.12 --caster-format fp16
       the light that leaks into the room if the Ray Engine casts the rays of the form factors in short number formats
   crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep-patches 60,240,515,889
       half floats on a card that truncates: the error by number of patches, and under every open switch
 
-Written to --out: index.html (self-contained), rows.csv, patches.csv and vertices.csv (radiosities per patch, and \
-between patches per vertex), study.json, residual.svg, with --sweep-patches \
-sweep.csv and sweep.svg, pictures of every method \
-(NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --picture-after; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
-chrome://tracing. docs/papers/radiosity.md explains all of it.";
+Written to --out: index.html (self-contained), rows.csv, patches.csv (radiosity of every patch), vertices.csv (radiosity \
+of every vertex of the smooth display), study.json, residual.svg, sweep.csv and sweep.svg (with --sweep-patches), \
+pictures of every method (NAME-flat.png and NAME-smooth.png; NAME-error.png for a card if direct is computed, too) \
+and of --picture-after, timeline.json (for a card; a trace for https://ui.perfetto.dev or chrome://tracing). \
+docs/papers/radiosity.md explains all of it.";
 
 /// Compute diffuse light in a scene by radiosity: patches, form factors, iterations as fragment programs
 #[derive(Debug, clap::Args)]

@@ -112,6 +112,6 @@ fn what_does_not_fit_is_refused() {
     expected 10 numbers of light, found 9
     expected light of finite numbers, of 0 or more in bytes, found -1
     expected light of finite numbers, of 0 or more in bytes, found inf
-    16 rows need a texture of 8 x 4 texels; `gt200` has textures of 4 per side (limits.max_texture_size); take fewer
+    16 rows need a texture of 8 x 4 texels; `gt200` has textures of 4 per side (limits.max_texture_size); use fewer
     ");
 }
