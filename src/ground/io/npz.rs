@@ -125,7 +125,7 @@ impl<'a> NpzReader<'a> {
     /// Checks that no array is left.
     pub fn finish(self) -> Result<(), InputError> {
         match self.arrays.keys().next() {
-            Some(left) => Err(self.refuse("arrays", "no others", quoted(left.as_bytes()))),
+            Some(left) => Err(self.refuse("arrays", "no other arrays", quoted(left.as_bytes()))),
             None => Ok(()),
         }
     }

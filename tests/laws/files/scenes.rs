@@ -275,7 +275,7 @@ fn names_run_to_the_end_of_their_line() {
     let refused = load_scene_with(&model, ModelOptions { strict: true, up: None }).expect_err("unknown").to_string();
     assert!(
         refused
-            .ends_with("m.obj:13: material blue # sky: expected a material of its libraries, found none of this name"),
+            .ends_with("m.obj:13: material blue # sky: expected a material of its libraries, found no such material"),
         "{refused}"
     );
     // Whether a line with spaces names one file or several is a guess.

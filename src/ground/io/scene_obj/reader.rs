@@ -141,7 +141,7 @@ impl SceneReader {
                     if let (None, Some(line)) = (found, line) {
                         let (place, material) = (FilePlace::line(&name, line), material.to_owned());
                         let Some(notes) = &mut notes else {
-                            let (expected, found) = ("a material of its libraries", "none of this name".to_owned());
+                            let (expected, found) = ("a material of its libraries", "no such material".to_owned());
                             return Err(material_error(place, material, expected, found));
                         };
                         notes.push(ModelNote::Unknown { place, material });

@@ -205,8 +205,8 @@ fn what_does_not_fit_is_refused() {
         refused(device("r350"), touching),
     ];
     insta::assert_snapshot!(messages.join("\n"), @r"
-    4 x 4 blocks of 6 x 6 texels in 9 layers need a volume of 24 x 24 x 9; `gt200` has volumes of 23 per side (limits.max_volume_size); take a smaller patch, or fewer directions
-    4 x 4 blocks of 4 x 4 texels in 9 layers need a volume of 16 x 16 x 9; `gt200` has volumes of 8 per side (limits.max_volume_size); take a smaller patch, or fewer directions
+    4 x 4 blocks of 6 x 6 texels in 9 layers need a volume of 24 x 24 x 9; `gt200` has volumes of 23 per side (limits.max_volume_size); use a smaller patch, or fewer directions
+    4 x 4 blocks of 4 x 4 texels in 9 layers need a volume of 16 x 16 x 9; `gt200` has volumes of 8 per side (limits.max_volume_size); use a smaller patch, or fewer directions
     expected a bidirectional texture in rgba8, rgba16f or rgba32f, found rgba16s
     `gt200` does not filter rgba32f textures (limits.float_filtering); store samples in 8 bits
     a direction of light, texture coordinates and the view need 3 sets of texture coordinates; `gt200` has 2 (limits.texture_coordinates)
