@@ -21,9 +21,9 @@ Examples:
       the fewest bits, or the rarest promotion, that keep the error below a hundredth
 
 A is M x K and B is K x N. Arrays of f2, f4 or f8 are rounded to nearest even (types of up to 8 bits saturate; units \
-with scales get block scales by OCP's rule); arrays of u1, u2 or u4 hold bit patterns. K need not be a multiple of the block: \
-zeros do not affect sums, so padding is exact. Measures of goals: worst, mean, bits, of_addends, differing. Written to \
---out: index.html, D of every unit as .npy, errors.csv, curve.csv, addends.csv.
+with scales get block scales by OCP's rule); arrays of u1, u2 or u4 hold bit patterns. K need not be a multiple of the \
+block: zeros do not affect sums, so padding is exact. Measures of goals: worst, mean, bits, of_addends, differing. \
+Written to --out: index.html, D of every unit as .npy, errors.csv, curve.csv, addends.csv.
 
 Exit codes: 0 done, 1 no number of bits and no promotion meets the goal, 2 the input cannot be used.";
 

@@ -23,11 +23,11 @@ Examples:
   crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep-patches 60,240,515,889
       half floats on a card that truncates: the error by number of patches, and under every open switch
 
-Written to --out: index.html (self-contained), rows.csv, patches.csv (radiosity of every patch), vertices.csv (radiosity \
-of every vertex of the smooth display), study.json, residual.svg, sweep.csv and sweep.svg (with --sweep-patches), \
-pictures of every method (NAME-flat.png and NAME-smooth.png; NAME-error.png for a card if direct is computed, too) \
-and of --picture-after, timeline.json (for a card; a trace for https://ui.perfetto.dev or chrome://tracing). \
-docs/papers/radiosity.md explains all of it.";
+Written to --out: index.html (self-contained), rows.csv, patches.csv (radiosity of every patch), vertices.csv \
+(radiosity of every vertex of the smooth display), study.json, residual.svg, sweep.csv and sweep.svg (with \
+--sweep-patches), pictures of every method (NAME-flat.png and NAME-smooth.png; NAME-error.png for a card if direct is \
+computed, too) and of --picture-after, timeline.json (for a card; a trace for https://ui.perfetto.dev or \
+chrome://tracing). docs/papers/radiosity.md explains all of it.";
 
 /// Compute diffuse light in a scene by radiosity: patches, form factors, iterations as fragment programs
 #[derive(Debug, clap::Args)]

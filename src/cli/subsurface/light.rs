@@ -23,8 +23,8 @@ pub(super) enum LightArg {
 
 const LIGHT: &str = "ambient:R,G,B (radiance), directional:X,Y,Z:R,G,B (towards the light; irradiance) or \
      point:X,Y,Z:R,G,B[:K0,K1,K2] (place; intensity; attenuation, by default 0,0,1), or an environment map: a \
-     lat-long, angular-probe, cube-cross or cube-strip picture, disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z \
-     (towards the sun), red-and-blue, scene:SCENE@X,Y,Z (as seen from a place in a scene)";
+     lat-long, angular-probe, cube-cross or cube-strip picture, disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], \
+     sky:X,Y,Z (towards the sun), red-and-blue, scene:SCENE@X,Y,Z (as seen from a place in a scene)";
 
 impl FromStr for LightArg {
     type Err = String;
