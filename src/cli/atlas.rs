@@ -13,20 +13,21 @@ use crate::study::atlas::{AtlasStudy, no_atlas};
 const EXAMPLES: &str = "\
 Examples:
   crossbar atlas docs/examples/teapot.obj --side 256
-      how evenly the faces share the texels, how connected and compact clusters are
+      how evenly the texels are distributed over the faces, and how connected and compact the clusters are
   crossbar atlas stanford-bunny --side 512 --out out/bunny
-      pictures of atlas and mesh, colored by face and by clusters of some levels; the mesh with texture coordinates
+      pictures of the atlas and the mesh, colored by face and by the clusters of some levels; the mesh with texture \
+coordinates
 
-The side is a power of two, up to 8192; every face needs a texel.
+The side is a power of two, up to 8192; every face needs at least one texel.
 Written to --out: index.html (self-contained), study.json, evenness.csv, levels.csv, mesh.csv, faces.png and level_N.png \
-(the atlas), model_*.png (the mesh in the same colors), atlas.obj and atlas.mtl (faces in halves, with texture \
-coordinates), faces.csv (each face's rectangle). docs/atlas.md explains all of it.";
+(the atlas), model_*.png (the mesh in the same colors), atlas.obj and atlas.mtl (each face split into two triangles, \
+with texture coordinates), faces.csv (each face's rectangle). docs/atlas.md explains all of it.";
 
 /// Map a mesh into a square of texels, with clusters of faces for every level: the multiresolution meshed atlas
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a built-in scene, or a stand-in for a model
     /// of the paper: stanford-bunny, stand-in-dolphin, stand-in-head
     #[arg(value_name = "MODEL")]
     model: PathBuf,
@@ -35,7 +36,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = number::whole::<u32>(1..=MAX_SIDE))]
     side: u32,
 
-    /// Pixels of the pictures of the mesh
+    /// Size of the pictures of the mesh, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true, requires = "out")]
     size: Size,
 

@@ -8,7 +8,7 @@ use super::{Problem, switch};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct CardArgs {
-    /// The card [default: the paper's]
+    /// The card [default: the card of the paper]
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
@@ -16,7 +16,7 @@ pub(super) struct CardArgs {
     #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
     switch: Vec<(String, String)>,
 
-    /// Executor; all produce bit-identical results
+    /// Executor; all executors give the same bits
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
 }

@@ -15,17 +15,17 @@ Examples:
   crossbar check docs/examples/intersect.psa --device r200 --switch ray-textures=wide --json
       the same with another setting of an open switch of the card, as JSON
 
-Exit codes: 0 the program is legal (warnings list what may run differently), 1 it breaks a rule or limit, 2 it is not a program (or there is no such file or \
-    device).";
+Exit codes: 0 the program is legal (warnings list what may run differently), 1 it breaks a rule or limit, 2 the \
+file is not a program, or there is no such file or device.";
 
 /// Assemble a shader and report every rule and device limit that it breaks
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The shader, a text file that starts with a version such as ps_1_4; or one in WGSL
+    /// The shader, a text file that starts with a version such as ps_1_4; or a WGSL shader
     shader: PathBuf,
 
-    /// The device whose limits hold; `crossbar devices` lists them
+    /// The device whose rules and limits apply; `crossbar devices` lists the devices
     #[arg(long, value_name = "D")]
     device: String,
 

@@ -10,11 +10,11 @@ use super::{Out, OutputError, Verdict};
 const EXAMPLES: &str = "\
 Examples:
   source <(crossbar completions bash)
-      in ~/.bashrc
+      a line for ~/.bashrc
   crossbar completions zsh > _crossbar
-      in a folder of $fpath
+      to be run in a folder of $fpath
   crossbar completions fish | source
-      in ~/.config/fish/config.fish";
+      a line for ~/.config/fish/config.fish";
 
 /// Print a shell script that completes commands, options and their values
 #[derive(Debug, clap::Args)]

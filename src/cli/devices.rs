@@ -10,7 +10,7 @@ use crate::report::{Cell, Findings, FoundTable, Table};
 const EXAMPLES: &str = "\
 Examples:
   crossbar devices
-      every card with what its pixel programs can do
+      all cards, and what their pixel programs can do
   crossbar devices r200
       all figures of the Radeon 8500 with sources, and the open questions as switches
   crossbar devices ideal-fp24 --json
@@ -22,7 +22,7 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A device, or ideal-FORMAT; all devices if left out
+    /// A device, or ideal-FORMAT [default: all devices]
     name: Option<String>,
     /// List the GPU adapters of this computer instead
     #[arg(long, conflicts_with = "name")]
@@ -99,8 +99,8 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
         ]);
     }
     let below = [
-        "There is also ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:",
-        "no limits and no timing. `crossbar devices NAME` shows every figure of a device with its source.",
+        "There is also ideal-FORMAT for any number format, such as ideal-fp32 or ideal-s3.12:rtz: a device",
+        "without limits and timing. `crossbar devices NAME` shows every figure of a device with its source.",
     ];
     out.listing(&table, &below)?;
     Ok(Verdict::Done)
@@ -117,7 +117,7 @@ fn instructions(profile: &Profile) -> FoundTable {
 }
 
 fn storages(profile: &Profile) -> FoundTable {
-    let mut table = Table::new("Formats of storages and sums", &["storage", "format"]);
+    let mut table = Table::new("Formats of stored values and of sums", &["storage", "format"]);
     let storages = profile.rules.storage.iter().map(|(storage, format)| (storage.name(), format));
     for (name, format) in storages.chain(profile.rules.accumulator.map(|format| ("accumulator", format))) {
         table.push([name.into(), format.to_string().into()]);

@@ -10,19 +10,19 @@ use crate::study::picture_difference::{DifferenceOptions, PictureDifference, Pic
 const EXAMPLES: &str = "\
 Examples:
   crossbar diff docs/examples/exact.png docs/examples/leaky.png       # exit code 1
-      each channel's root mean square difference, its largest difference with the pixel, SSIM, FLIP
+      each channel's rms difference, and its largest difference with the pixel; SSIM; FLIP
   crossbar diff docs/examples/smooth.exr docs/examples/rough.exr --out out/changes      # exit code 1
-      what brightened and what darkened, in false colours; the differences as numbers in difference.exr
+      the pixels that brightened and that darkened, in false colours; difference.exr has the differences as numbers
   crossbar diff docs/examples/smooth.exr docs/examples/rough.exr --channel R --exposure 2 --max-flip 0.5
       a check: is the mean FLIP at most 0.5, at twice the exposure of the files?
 
-Channels are compared as the files have them; where one picture is encoded for a screen (PNG) and \
-the other linear (EXR, HDR), the former is decoded. NaN equals NaN. SSIM and FLIP compare what a \
-screen shows of both pictures.
+Channels are compared as they are stored. If one picture is encoded for a screen (PNG) and the \
+other is linear (EXR, HDR), the encoded picture is decoded first. NaN equals NaN. SSIM and FLIP \
+compare the two pictures as a screen shows them.
 Written to --out: index.html (self-contained), difference.png, flip.png, first.png, second.png, \
-difference.exr, channels.csv, study.json. docs/diff.md says what each figure means.
+difference.exr, channels.csv, study.json. docs/diff.md explains each figure.
 
-Exit codes: 0 the pictures are equal, or within all bounds that are given; 1 they are not; 2 they cannot be compared.";
+Exit codes: 0 the pictures are equal, or within all given bounds; 1 they are not; 2 they cannot be compared.";
 
 /// Compare two pictures (PNG, EXR, HDR): sample by sample, and as a viewer perceives them
 #[derive(Debug, clap::Args)]
@@ -32,7 +32,7 @@ pub(super) struct Args {
     #[arg(value_name = "A")]
     first: PathBuf,
 
-    /// The second picture; differences are this one minus the first
+    /// The second picture; differences are this picture minus the first
     #[arg(value_name = "B")]
     second: PathBuf,
 

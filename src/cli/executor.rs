@@ -12,9 +12,9 @@ use crate::study::caster::CasterOptions;
 pub(super) enum DeviceExecutor {
     /// The reference: one fragment at a time, in integer arithmetic
     Scalar,
-    /// Many fragments at once
+    /// Many fragments at once; same bits as scalar
     Batch,
-    /// A GPU of this computer
+    /// A GPU of this computer; same bits as scalar
     Wgpu,
 }
 
@@ -83,9 +83,9 @@ impl Decider {
 pub(super) fn engine_executor(caster: &CasterOptions, executor: Option<Decider>) -> Result<Executor, Problem> {
     if caster.is_named() && !caster.is_engine() && executor.is_some() {
         let help = "remove `--executor`, or add `--caster engine`";
-        return Err(Problem::usage("`--executor` is for the Ray Engine here", help));
+        return Err(Problem::usage("with `--caster`, `--executor` is for the Ray Engine only", help));
     }
     let decider = executor.filter(|_| caster.is_engine()).unwrap_or(Decider::Batch);
-    let help = "name `--executor scalar`, `batch` or `wgpu`";
+    let help = "use `--executor scalar`, `batch` or `wgpu`";
     decider.open()?.ok_or_else(|| Problem::usage("the Ray Engine does not run in exact arithmetic", help))
 }

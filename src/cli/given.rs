@@ -37,7 +37,7 @@ pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result
                 "expected different values of `--{}`, found `{name}` twice",
                 arg.get_long().unwrap_or_default()
             );
-            return Err(Problem::usage(what, "leave one of them out"));
+            return Err(Problem::usage(what, "remove one of the two"));
         }
     }
     Ok(())
@@ -51,6 +51,6 @@ pub(super) fn require_file(path: &Path, what: &str, names: &[&str], ending: &str
         return Ok(());
     }
     let meant = did_you_mean(name, names.iter().copied());
-    let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.{ending}`", names.join(", "));
+    let help = format!("{meant}the names are {}; files need an ending, as in `{name}.{ending}`", names.join(", "));
     Err(Problem::usage(format!("there is no {what} `{name}`"), help))
 }

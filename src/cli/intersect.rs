@@ -35,12 +35,11 @@ Examples:
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster host --time --out hits.csv
       by the host's octree in single precision, with the times of building the octree and casting the rays
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --caster-device r300 --time --out hits.csv
-      the same by the Ray Engine, host and emulated Radeon 9700 together
+      the same by the Ray Engine, on the host and an emulated Radeon 9700 together
 
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, one line
-per ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
-the ray's direction, written so that it reads back to the same f32,
-or to the same f64 where t exceeds f32.
+per ray. Triangles are numbered from 0 in the order of the mesh file; a ray without a hit has triangle -1 and t inf. \
+t is in multiples of the ray's direction. Its text reads back to the same f32, or to the same f64 where t exceeds f32.
 
 `crossbar leaks --mesh M.obj --rays R.csv` judges the same rays on any card: which rays leak, hit falsely or hit a wrong triangle.
 
@@ -70,8 +69,8 @@ pub(super) struct Args {
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 
-    /// Say on standard error how long casting took, how many rays per second that is, and how long building took. Files
-    /// are not counted
+    /// Print on standard error the time of casting, the rays per second, and the time of building. The time for files
+    /// is not counted
     #[arg(long)]
     time: bool,
 

@@ -26,39 +26,40 @@ Examples:
   crossbar leaky-teapot
       Figure 4 of the Ray Engine paper and the study behind it, in out/leaky-teapot/index.html
   crossbar leaky-teapot --size 256x256 --format s3.12 --format e5m10:rtz --format fp32 --out formats
-      number formats of your own choice, on a device without limits
+      number formats that you choose, on a device without limits
   crossbar leaky-teapot --device r300 --device nv35 --json
       two cards as they are, the rows as JSON on standard output
   crossbar leaky-teapot --size 256x256 --device r200 --device r300 --kernel paper --kernel shared-edges
       two cards with the paper's program, and with one whose edges cannot leak
   crossbar leaks --mesh docs/examples/step.obj --size 128x128 --device r200 --out leaks
-      a model of your own on a Radeon 8500: `leaks` is another name of the command
+      your own model on a Radeon 8500: `leaks` is another name for this command
   crossbar leaks --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --device r300 --out leaks
-      rays of your own, as for `crossbar intersect`, on two cards
+      your own rays, as for `crossbar intersect`, on two cards
 
-With both --device and --format, every device runs in every format; other settings of a device file stay.
-Written to --out: index.html (self-contained), rows.csv, edges.csv, programs.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (wrong pixels by kind),
-NAME.exr (t and triangle); rows with the same bits share these files: see same_bits in study.json.";
+With both --device and --format, every device runs in every format; the other settings of a device file do not change.
+Written to --out: index.html (self-contained), rows.csv, edges.csv, programs.csv, study.json, and for each row NAME: \
+NAME.png (shaded), NAME-map.png (wrong pixels by kind), NAME.exr (t and triangle). \
+Rows with the same bits share these files: see same_bits in study.json.";
 
 /// Rows that also run with shared edges, if no options choose rows.
 const CURED: [&str; 5] = ["r200", "r200-rounding-rne", "fp16", "fp24", "fp32"];
 
-/// Trace the teapot, or a model of your own, in each number format, against exact arithmetic: leaks, false hits, wrong
-/// triangles
+/// Trace the teapot, or your own model, in several number formats, and compare with exact arithmetic: leaks, false
+/// hits, wrong triangles
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true, visible_alias = "leaks")]
 pub(super) struct Args {
-    /// A model in place of the teapot: a Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene or
-    /// a mesh of the project
+    /// A model instead of the teapot: a Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a
+    /// built-in scene or mesh
     #[arg(long, value_name = "MODEL", conflicts_with = "tessellation")]
     mesh: Option<PathBuf>,
 
-    /// Rays in place of a camera's: a CSV file, as `crossbar intersect` takes it
+    /// Rays instead of a camera's rays: a CSV file, as `crossbar intersect` reads it
     #[arg(long, value_name = "R.csv", requires = "mesh",
           conflicts_with_all = ["size", "eye", "target", "tan_half_height"])]
     rays: Option<PathBuf>,
 
-    /// Pixels of the pictures
+    /// Size of the pictures, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
@@ -78,7 +79,7 @@ pub(super) struct Args {
     format: Vec<String>,
 
     /// The program: the paper's, whose edges leak, or one that evaluates an edge once for both triangles; may be
-    /// repeated [default: paper; without --device and --format five rows with shared edges, too]
+    /// repeated [default: paper; without --device and --format, also five rows with shared edges]
     #[arg(long, value_name = "K", value_parser = kernels())]
     kernel: Vec<EdgeRule>,
 
@@ -89,7 +90,7 @@ pub(super) struct Args {
     #[command(flatten)]
     options: LeakyTeapotOptions,
 
-    /// Executor; all produce bit-identical results
+    /// Executor; all executors give the same bits
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
 }

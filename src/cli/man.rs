@@ -12,11 +12,11 @@ use crate::report::Findings;
 const EXAMPLES: &str = "\
 Examples:
   crossbar man --out out/man
-      out/man/crossbar.1, crossbar-alu.1 and so on; `man out/man/crossbar-alu.1` shows one
+      out/man/crossbar.1, crossbar-alu.1 and so on; `man out/man/crossbar-alu.1` shows a page
   crossbar man --out ~/.local/share/man/man1
-      where `man crossbar-alu` finds it";
+      to the folder where `man crossbar-alu` looks for it";
 
-/// Write manual pages: one for the program, one for each command and each of its verbs
+/// Write manual pages: one for the program, and one for each command and subcommand
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

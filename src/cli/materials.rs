@@ -27,7 +27,7 @@ const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A published medium; all of them if left out
+    /// A published medium [default: all media]
     name: Option<String>,
 }
 
@@ -78,7 +78,7 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
             ]);
         }
     }
-    out.listing(&table, &["`crossbar materials NAME` shows lengths, R_d by distance and sources of one."])?;
+    out.listing(&table, &["`crossbar materials NAME` shows the lengths, R_d by distance and sources of a medium."])?;
     Ok(Verdict::Done)
 }
 
@@ -88,7 +88,7 @@ fn one(published: &PublishedMaterial) -> Result<Findings, Problem> {
     found.fields(json!({ "name": medium.name, "eta": medium.eta }));
     found.introduce(format!("{}: index of refraction {}", medium.name, medium.eta));
     found.table(FoundTable::from(lengths(&dipoles)).field("lengths"));
-    let title = "R_d: exitance at a distance from where a flux of 1 enters, per mm^2";
+    let title = "R_d: exitance per mm^2, by the distance from the point where a flux of 1 enters";
     let mut table = Table::new(title, &["distance (mm)", "red", "green", "blue"]);
     let longest = dipoles.iter().map(Dipole::mean_free_path).fold(0.0, f64::max);
     for r in PATHS.map(|paths| paths * longest) {

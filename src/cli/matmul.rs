@@ -14,16 +14,16 @@ use crate::study::precision::Goal;
 const EXAMPLES: &str = "\
 Examples:
   crossbar matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8,blackwell-f8f6f4 --promote 64
-      how far FP8 sums drift on Hopper, with one accumulator and promoted, and on Blackwell
+      the errors of FP8 sums on Hopper, with one accumulator and with promotion, and on Blackwell
   crossbar matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-f16 --against ampere-f16 --blame 2,4
-      elements that differ between two generations; for one of them the block and the addend
+      elements that differ between two generations; for one element, the block and the addend that cause the difference
   crossbar matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8 --goal \"worst<=1e-2\"
       the fewest bits, or the rarest promotion, that keep the error below a hundredth
 
-A is M x K, B is K x N, of f2, f4 or f8, which are quantised to nearest even (types of up to 8 bits saturate; units with scales \
-take OCP's), or patterns of u1, u2 or u4. K need not be a multiple of the block: zeros do not affect sums, so padding is exact. \
-Measures of goals: worst, mean, bits, of_addends, differing. Written to --out: index.html, D of every unit as .npy, \
-errors.csv, curve.csv, addends.csv.
+A is M x K and B is K x N. Arrays of f2, f4 or f8 are rounded to nearest even (types of up to 8 bits saturate; units \
+with scales get block scales by OCP's rule); arrays of u1, u2 or u4 hold bit patterns. K need not be a multiple of the \
+block: zeros do not affect sums, so padding is exact. Measures of goals: worst, mean, bits, of_addends, differing. \
+Written to --out: index.html, D of every unit as .npy, errors.csv, curve.csv, addends.csv.
 
 Exit codes: 0 done, 1 no number of bits and no promotion meets the goal, 2 the input cannot be used.";
 
@@ -39,11 +39,11 @@ pub(super) struct Args {
     #[arg(value_name = "B.npy")]
     b: PathBuf,
 
-    /// C, an array of f4 that is added
+    /// C, a NumPy array of f4 that is added to the product
     #[arg(long, value_name = "C.npy")]
     c: Option<PathBuf>,
 
-    /// The units, as `crossbar units` lists them
+    /// The units; `crossbar units` lists them
     #[arg(long, value_name = "UNIT,...", required = true, value_delimiter = ',', value_parser = MatrixUnit::find)]
     unit: Vec<MatrixUnit>,
 
@@ -51,7 +51,7 @@ pub(super) struct Args {
     #[arg(long = "type", value_name = "TYPE,...", value_delimiter = ',', value_parser = element)]
     types: Vec<Element>,
 
-    /// Also add the partial sum to single precision after each N products
+    /// Also compute with promotion: every N products, the partial sum is added to a single-precision sum
     #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = number::whole::<u32>(1..=u32::MAX))]
     promote: Vec<u32>,
 
@@ -63,7 +63,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "ROW,COLUMN", value_parser = place)]
     blame: Option<[usize; 2]>,
 
-    /// Find the fewest bits below the largest exponent, and the rarest promotion, of the first unit that meet a bound
+    /// For the first unit, find the fewest bits below the largest exponent and the rarest promotion that meet a bound
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
 
@@ -107,7 +107,7 @@ impl StudyArgs for Args {
 
     fn study(&self) -> miette::Result<MatrixProduct> {
         if self.types.len() > 2 {
-            let help = "write one type, or that of A and that of B: `--type e4m3,e5m2`";
+            let help = "write one type for both, or two types for A and B: `--type e4m3,e5m2`";
             return Err(Problem::usage("expected at most two types in `--type`", help).into());
         }
         let load = |path: &Path| MatrixInput::load(path);

@@ -9,15 +9,15 @@ use crate::study::measure::{Measure, load_measurement};
 const EXAMPLES: &str = "\
 Examples:
   crossbar measure docs/examples/measured.csv --device nv25
-      pixels captured on a card, against all settings of those switches of a GeForce4 Ti that affect them
+      compares pixels captured on a card with all settings of the GeForce4 Ti's switches that affect these pixels
   crossbar measure docs/examples/measured.csv --device nv25 --switch mad=fused --json
-      the same where one answer is known, as JSON
+      the same, with one switch already known, as JSON
 
-The table has the header `case,column,row,red,green,blue,alpha,depth`: a case file, a pixel of it, and the codes that the \
-card stored there. docs/measuring.md describes it, and has for each open switch of the cards a small case that tells its \
-values apart.
+The table has the header `case,column,row,red,green,blue,alpha,depth`: a case file, a pixel of it, and the codes that \
+the card stored there. docs/measuring.md describes it. For each open switch of the cards, it has a small case that \
+tells the switch's values apart.
 
-Exit codes: 0 some setting draws every measured code, 1 none does, 2 the table or a case cannot be used.";
+Exit codes: 0 a setting reproduces every measured code, 1 no setting does, 2 the table or a case cannot be used.";
 
 /// Compare pixels captured on a real card with every combination of a device's switches; list those that match
 #[derive(Debug, clap::Args)]
@@ -27,7 +27,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE.csv")]
     file: PathBuf,
 
-    /// The card that drew them, in place of the cases' device
+    /// The card that drew the pixels; it replaces the device of the cases
     #[arg(long, value_name = "D")]
     device: String,
 
@@ -38,7 +38,7 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = Measure;
-    const QUICKER: &'static str = "`--switch NAME=VALUE` for what is known";
+    const QUICKER: &'static str = "`--switch NAME=VALUE` for each switch that is known";
 
     fn files(&self) -> StudyFiles<'_> {
         StudyFiles::new(None, vec![&self.file])

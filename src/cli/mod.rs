@@ -71,13 +71,13 @@ const WELCOME: &str = "\
 Crossbar: global illumination on the first programmable graphics cards, emulated to the bit.
 
 Three things to try:
-  crossbar leaky-teapot                  trace the teapot on a Radeon 8500, and in three float formats: which rays leak, where
+  crossbar leaky-teapot                  trace the teapot on a Radeon 8500 and in three float formats; find leaks
   crossbar render office --renderer path --samples 4
                                          a picture of an office; `--caster engine` has the Ray Engine cast its rays
   crossbar reproduce ray-engine-equation-11
-                                         a printed equation of a paper beside the value computed here
+                                         a paper's printed numbers for an equation, beside our own
 
-All commands: `crossbar --help`. One of them, with examples: `crossbar leaky-teapot --help`.
+`crossbar --help` lists all commands. `crossbar leaky-teapot --help` describes a command, with examples.
 ";
 
 const CHECK_FAILED: u8 = 1;
@@ -108,10 +108,10 @@ struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar leaky-teapot                                      # the teapot in each number format
+  crossbar leaky-teapot                                      # trace the teapot in several number formats
   crossbar devices                                           # the emulated cards
   crossbar check docs/examples/intersect.psa --device r200   # is it legal on a Radeon 8500?
-  crossbar run docs/examples/product.toml                    # draw a case: pictures, counts
+  crossbar run docs/examples/product.toml                    # draw a case: write pictures, print counts
   echo 3C00 4000 | crossbar alu add --format fp16            # one plus two, in half precision
   crossbar alu --help                                        # what a command does, with examples
 

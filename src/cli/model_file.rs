@@ -30,13 +30,13 @@ pub(super) fn with_options(program: Command) -> Command {
         .value_name("AXIS")
         .value_parser(["y", "z"])
         .requires(named_by)
-        .help("The up axis of the model's file; models are rotated so that z is up [default: y of glTF, else z]")
+        .help("The up axis of the model's file; models are rotated so that z is up [default: y for glTF, otherwise z]")
         .help_heading("Model");
     let strict = Arg::new(STRICT)
         .long("strict")
         .action(ArgAction::SetTrue)
         .requires(named_by)
-        .help("Refuse a model file that needs repair, and flip no triangles")
+        .help("Refuse model files that need repair, and do not flip triangles")
         .help_heading("Model");
     program.arg(up).arg(strict)
 }
@@ -55,7 +55,7 @@ pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Prob
     let strict = matches.get_flag(STRICT);
     if !matches.contains_id(named_by) {
         let options = [("--model-up", up.is_some()), ("--strict", strict)];
-        given::refuse(options, "a model's file, found none", "remove the option, or give a model file")?;
+        given::refuse(options, "model files, but no model is given", "remove the option, or give a model file")?;
     }
     OPTIONS.set(ModelOptions { up, strict }).ok();
     Ok(())
@@ -73,7 +73,7 @@ pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
         return Ok(());
     }
     Err(Problem::usage(
-        format!("{asked} applies to model files, but the program builds `{name}` itself"),
+        format!("{asked} is for model files, but `{name}` is built in"),
         "remove the option, or give a model file",
     ))
 }

@@ -35,7 +35,7 @@ pub(super) fn transfer_model_help() -> String {
     let stands_in = |name: &&str| ["transfer-", "all-frequency-", "bi-scale-"].iter().any(|of| name.starts_with(of));
     let names: Vec<&str> = meshes::names().filter(stands_in).collect();
     format!(
-        "A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of \
+        "A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a built-in scene, or a stand-in for a model of \
          the papers: {}",
         names.join(", ")
     )

@@ -16,18 +16,18 @@ Examples:
   crossbar page --out out/page
       out/page/index.html: open it in a browser with WebGPU
   refsim/web/build && crossbar page --emulator target/web/refsim_web.wasm
-      the same with the emulator in it, to run programs of the visitor's own
+      the same page with the emulator inside, so that visitors can run their own programs
 
-The file stands alone: it loads nothing and sends nothing. On the visitor's GPU it runs operations in eight number \
-formats, the teapot under the Ray Engine's intersection program, and programs of the systems instruction by instruction, \
-in integers, and compares all bits with the emulator's results, which are stored in the file; it also shows the GPU's own floats. \
-docs/page.md describes it.";
+The file is self-contained: it loads nothing and sends nothing. On the visitor's GPU it runs, in integer arithmetic, \
+operations in eight number formats, the Ray Engine's intersection program on the teapot, and programs of the systems, \
+instruction by instruction. It compares all bits with the emulator's results, which are stored in the file. It also \
+shows the results of the GPU's own floats. docs/page.md describes the page.";
 
-/// Write a page on which a visitor's GPU is compared with the emulated cards, bit for bit
+/// Write a web page that compares a visitor's GPU with the emulated cards, bit for bit
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// The emulator for programs of the visitor's own: what `refsim/web/build` compiles
+    /// The emulator, with which visitors run their own programs: the file that `refsim/web/build` compiles
     #[arg(long, value_name = "FILE.wasm")]
     emulator: Option<PathBuf>,
     /// Where to write index.html

@@ -6,7 +6,7 @@ pub(super) fn parse(text: &str) -> Result<[u32; 2], String> {
     let number = |part: &str| part.trim().parse::<u32>().ok();
     text.split_once(',')
         .and_then(|(x, y)| Some([number(x)?, number(y)?]))
-        .ok_or_else(|| format!("expected a pixel as `3,4`, column and row from 0; found `{text}`"))
+        .ok_or_else(|| format!("expected a pixel such as `3,4`: column and row, counted from 0; found `{text}`"))
 }
 
 /// The pixel, if it lies within a surface of this size.

@@ -18,27 +18,27 @@ use crate::study::precision::{
 const EXAMPLES: &str = "\
 Examples:
   crossbar precision --expr 'sqrt(x*x + y*y)' --range x=-1..1 --range y=1e-3..1
-      bits of error of an expression in every format, the smallest that suffices, and the operation to blame
+      bits of error of an expression in every format, the smallest format that suffices, and the operation to blame
   crossbar precision --fpcore fixtures/fpbench/suite.fpcore --samples 100 --out out/suite      # exit code 1
       all expressions of a file in FPCore
   crossbar precision docs/examples/highlight.toml
-      the fewest bits, of floats and of fixed point, that draw every code to within one; which squaring decides
+      the fewest bits, of floats and of fixed point, with which no code is off by more than one; which squaring decides
   crossbar precision docs/examples/highlight.toml --goal \"flip<=0.01\" --family fixed --out out/flip
-      a goal of your own, in fixed point alone
+      your own goal, in fixed point alone
   crossbar precision radiosity --family float --out out/radiosity_bits
-      one of the six systems, on a small input of its own and the card of its paper
+      one of the six systems, on a small built-in input and the card of its paper
   crossbar precision docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3 --out out/ggx
       a fragment shader in WGSL, line by line (a build with the feature wgsl)
 
-The smallest format of an expression has the fewest bits of all formats of its family that meet the goal; of several, it \
-is the one with the smallest error.
+The smallest format of an expression has the fewest bits of all formats of its family that meet the goal; if \
+there are several such formats, it has the smallest error of them.
 
 Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. \
 Written to --out: index.html, mixed.toml (a device with a format per instruction, for --device), curve.csv and other \
 tables. docs/precision.md describes what is measured.
 
-Exit codes: 0 some format meets the goal, 1 none does (of several expressions: for one of them), 2 the case, the \
-expressions or the goal cannot be used.";
+Exit codes: 0 a format meets the goal, 1 no format does (with several expressions: for at least one of them), 2 the \
+case, the expressions or the goal cannot be used.";
 
 /// Default maximum number of runs of a program.
 const BUDGET: u64 = 10_000;
@@ -47,12 +47,12 @@ const BUDGET: u64 = 10_000;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, group(clap::ArgGroup::new("subject").required(true).args(["case", "expr", "fpcore"])))]
 pub(super) struct Args {
-    /// The case, a TOML file; or a shader in WGSL; or ray-engine, radiosity, subsurface, cpca, all-frequency or
+    /// The case, a TOML file; or a WGSL shader; or a system: ray-engine, radiosity, subsurface, cpca, all-frequency or
     /// bi-scale
     #[arg(value_name = "CASE.toml|SHADER.wgsl|SYSTEM")]
     case: Option<PathBuf>,
 
-    /// An expression, as `sqrt(x + 1) - sqrt(x)`, in place of a case
+    /// An expression instead of a case, such as `sqrt(x + 1) - sqrt(x)`
     #[arg(long, value_name = "EXPRESSION", allow_hyphen_values = true)]
     expr: Option<String>,
 
@@ -64,7 +64,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME=LOW..HIGH")]
     range: Vec<String>,
 
-    /// Inputs of an expression per format [default: 1000]
+    /// Number of inputs per format, for expressions [default: 1000]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=100_000))]
     samples: Option<u32>,
 
@@ -77,8 +77,8 @@ pub(super) struct Args {
     draw: Option<InputDraw>,
 
     /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 for expressions and where no
-    /// target has integer codes; of systems wrong<=0.001 for the Ray Engine, largest_relative<=0.01 for radiosity,
-    /// largest_codes<=1]
+    /// target has integer codes; for systems, wrong<=0.001 for ray-engine, largest_relative<=0.01 for radiosity,
+    /// otherwise largest_codes<=1]
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
 
@@ -87,7 +87,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "CASE.toml")]
     held_back: Option<PathBuf>,
 
-    /// A device in place of the case's, or of the card of the system's paper
+    /// The device [default: the device of the case, or the card of the system's paper]
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
@@ -95,15 +95,15 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
     switch: Vec<(String, String)>,
 
-    /// A value of a uniform of a shader in WGSL, up to four numbers; may be given several times
+    /// The value of a uniform of a WGSL shader: up to four numbers; may be given several times
     #[arg(long, value_name = "NAME=X,Y,..", value_parser = uniform::parse)]
     uniform: Vec<Uniform>,
 
-    /// Families of formats that are tried [default: both, or float for expressions]
+    /// Families of formats to try [default: both, or float for expressions]
     #[arg(long, value_parser = families())]
     family: Option<Families>,
 
-    /// Maximum number of runs of the program; then the best result so far counts [default: 10000]
+    /// Maximum number of runs of the program; after that, the best result so far counts [default: 10000]
     #[arg(long, value_name = "N", value_parser = number::whole::<u64>(1..=u64::MAX))]
     budget: Option<u64>,
 

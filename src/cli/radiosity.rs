@@ -13,27 +13,27 @@ use crate::study::radiosity::{Factors, Parameters, RadiosityOptions, SolveMethod
 const EXAMPLES: &str = "\
 Examples:
   crossbar radiosity cornell-room
-      the paper's scene on an emulated GeForce FX 5900 Ultra, Gauss-Seidel and the direct solution beside it, as one page
+      the paper's scene on an emulated GeForce FX 5900 Ultra, with Gauss-Seidel and the direct solution, as one page
   crossbar radiosity cornell-room-blocks --packing rgb --packing luminance --storage fp32 --storage fp16 --picture-after 1,2,4,8
       both packings in both precisions, and pictures of the room after some iterations
   crossbar radiosity docs/examples/room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
-      a scene of your own, on the host alone
+      your own scene, on the host alone
   crossbar radiosity cornell-room-blocks --patches 300 --solver direct --caster engine --caster-format s3.12 --caster-format fp16
-      what leaks into the room where the Ray Engine casts the rays of its form factors in short formats
+      the light that leaks into the room if the Ray Engine casts the rays of the form factors in short number formats
   crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep-patches 60,240,515,889
-      half floats on a card that truncates: the error with more patches, and under every open switch
+      half floats on a card that truncates: the error by number of patches, and under every open switch
 
-Written to --out: index.html (self-contained), rows.csv, patches.csv and vertices.csv (radiosities per patch, and \
-between patches per vertex), study.json, residual.svg, with --sweep-patches \
-sweep.csv and sweep.svg, pictures of every method \
-(NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --picture-after; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
-chrome://tracing. docs/papers/radiosity.md explains all of it.";
+Written to --out: index.html (self-contained), rows.csv, patches.csv (radiosity of every patch), vertices.csv \
+(radiosity of every vertex of the smooth display), study.json, residual.svg, sweep.csv and sweep.svg (with \
+--sweep-patches), pictures of every method (NAME-flat.png and NAME-smooth.png; NAME-error.png for a card if direct is \
+computed, too) and of --picture-after, timeline.json (for a card; a trace for https://ui.perfetto.dev or \
+chrome://tracing). docs/papers/radiosity.md explains all of it.";
 
-/// Solve for diffuse light in a scene: patches, form factors, iterations as fragment programs
+/// Compute diffuse light in a scene by radiosity: patches, form factors, iterations as fragment programs
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene of the project: see `crossbar scene`
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a built-in scene: see `crossbar scene`
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
 
@@ -43,11 +43,11 @@ pub(super) struct Args {
     #[command(flatten)]
     card: CardArgs,
 
-    /// Pixels of the pictures
+    /// Size of the pictures, in pixels
     #[arg(long, value_name = "WxH", default_value = "256x256", allow_hyphen_values = true)]
     size: Size,
 
-    /// A view of the scene, by its name [default: its first]
+    /// The name of a view of the scene [default: the first view]
     #[arg(long, value_name = "NAME")]
     view: Option<String>,
 
@@ -76,7 +76,8 @@ impl StudyArgs for Args {
             given::refuse(self.card.given(), "methods on a card", "remove the option, or add `--solver card`")?;
         }
         let unoccluded = self.options.factors == Factors::Unoccluded;
-        given::refuse([("--caster", unoccluded && self.caster.is_named())], "form factors by rays", "leave it out")?;
+        let idle = unoccluded && self.caster.is_named();
+        given::refuse([("--caster", idle)], "form factors by rays", "remove `--caster`")?;
         Ok(Parameters {
             casters: self.caster.choose_each(self.card.executor()?)?,
             scene,

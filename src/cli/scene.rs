@@ -16,15 +16,15 @@ Examples:
   crossbar scene
       all scenes
   crossbar scene office
-      contents of one: triangles, materials, emitters, views
+      the contents of one scene: triangles, materials, emitters, views
   crossbar scene teapot-room --out out/scenes
       out/scenes/teapot_room.toml (views and point lights), teapot_room.obj and teapot_room.mtl, which read back to the same bits";
 
-/// List the built-in scenes; show the contents of one; write its files
+/// List the built-in scenes, show the contents of one scene, or write its files
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The scene [default: list all]
+    /// The scene [default: list all scenes]
     #[arg(value_name = "NAME")]
     name: Option<String>,
 
@@ -56,7 +56,7 @@ fn one(name: &str, folder: Option<&PathBuf>) -> miette::Result<Findings> {
         let names: Vec<&str> = scenes::names().collect();
         let what = format!("expected the name of a scene, found `{name}`");
         let meant = did_you_mean(name, names.iter().copied());
-        return Err(Problem::usage(what, format!("{meant}there are {}", names.join(", "))).into());
+        return Err(Problem::usage(what, format!("{meant}the scenes are {}", names.join(", "))).into());
     };
     let mut written = Vec::new();
     if let Some(folder) = folder {

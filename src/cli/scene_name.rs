@@ -61,7 +61,7 @@ pub(super) struct EyeArgs {
     #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
     pub(super) target: Option<[f32; 3]>,
 
-    /// Tangent of half the vertical field of view, for a camera other than a view of the scene [default: 0.375]
+    /// Tangent of half the vertical field of view, for a camera that is not a view of the scene [default: 0.375]
     #[arg(long, value_name = "TAN", value_parser = number::single)]
     pub(super) tan_half_height: Option<f32>,
 }
@@ -102,7 +102,7 @@ impl Viewpoint<'_> {
         let aimed = self.eye.eye.is_some() || self.eye.target.is_some();
         let view = match self.view {
             Some(_) if aimed => {
-                let help = "leave out `--view`, or `--eye` and `--target`";
+                let help = "remove `--view`, or remove `--eye` and `--target`";
                 return Err(Problem::usage("`--view` already places the camera", help).into());
             }
             Some(name) => Some(scene.view(name).ok_or_else(|| no_view(scene, name))?),

@@ -17,5 +17,5 @@ pub(super) fn parse(text: &str) -> Result<(String, String), String> {
     text.split_once('=')
         .filter(|(name, value)| !name.is_empty() && !value.is_empty())
         .map(|(name, value)| (name.to_owned(), value.to_owned()))
-        .ok_or_else(|| format!("expected a switch as `rounding=rtz`, found `{text}`"))
+        .ok_or_else(|| format!("expected a switch such as `rounding=rtz`, found `{text}`"))
 }

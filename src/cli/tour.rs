@@ -8,12 +8,13 @@ use crate::study::tour::Parameters;
 const EXAMPLES: &str = "\
 Examples:
   crossbar tour
-      a room lit by matrix radiosity, with form factors by the Ray Engine's rays; in it, a glossy bunny and a marble suit of armor
+      a room lit by matrix radiosity, whose form factors use rays of the Ray Engine; \
+in the room, a glossy bunny and a marble suit of armor
 
 Written to --out: index.html (self-contained), room.png, clock.csv and timeline.json (the modelled time of every step, a trace \
 for https://ui.perfetto.dev or chrome://tracing), formats.csv (what each number format costs each system).";
 
-/// Take one room through four systems: rays, radiosity, radiance transfer, subsurface scattering
+/// Compute one room with four systems: rays, radiosity, radiance transfer, subsurface scattering
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {

@@ -9,17 +9,17 @@ use crate::report::{Cell, Findings, FoundTable, Table};
 const EXAMPLES: &str = "\
 Examples:
   crossbar units
-      every matrix unit: types, block, bits, result, and how sure the rule is
+      every matrix unit: types, block, bits, result, and how certain the rule is
   crossbar units hopper-fp8
-      the one of Hopper's FP8, with chips, instructions and sources
+      the unit for FP8 on Hopper, with chips, instructions and sources
 
-docs/matrix_units.md describes the rules, and the loss of each in one sum.";
+docs/matrix_units.md describes the rules, and shows what each rule loses in one sum.";
 
-/// Show the matrix units of GPUs, Volta to Blackwell and CDNA1 to CDNA3: rules, sources, how sure they are
+/// Show the matrix units of GPUs, Volta to Blackwell and CDNA1 to CDNA3: rules, sources, certainty
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A unit; all of them if left out
+    /// A unit [default: all units]
     name: Option<String>,
 }
 

@@ -17,8 +17,7 @@ use crate::scene::Camera;
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
 
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
-    Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`")
-        .into()
+    Problem::usage(format!("{error}"), "formats look like s3.12, e5m10:rtz or fp24: see `crossbar alu --help`").into()
 }
 
 /// Position of a camera, its target, and its up vector.
@@ -35,7 +34,7 @@ pub(super) fn framing(
     let Some([low, high]) = mesh.bounds() else {
         return Err(Problem::usage(
             "the mesh has no triangles",
-            "name an OBJ, PLY, STL or glTF file with at least one face",
+            "give an OBJ, PLY, STL or glTF file with at least one face",
         )
         .into());
     };
@@ -43,8 +42,8 @@ pub(super) fn framing(
     let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
     let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
     if radius == 0.0 && eye.is_none() {
-        let help = "name another mesh, or place the camera by `--eye` where there is one";
-        return Err(Problem::usage("expected a mesh with an extent, found one point", help).into());
+        let help = "give another mesh, or place the camera with `--eye` if the command has this option";
+        return Err(Problem::usage("expected a mesh with an extent, found a single point", help).into());
     }
     let tangent = f64::from(tan_half_height);
     let camera = |eye, target| Camera::new(eye, target, up, tan_half_height, size.width, size.height).into_diagnostic();

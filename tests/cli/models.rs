@@ -18,7 +18,7 @@ fn folder() -> tempfile::TempDir {
 #[test]
 fn what_is_mended_is_said_by_every_command() {
     let folder = folder();
-    let turned = "warning: m.obj: 1 triangle turned round, to face as the triangles beside\n";
+    let turned = "warning: m.obj: 1 triangle flipped, to face like the neighbours\n";
     let scaled = "warning: m.obj: m.mtl:1: material m: `Kd` and `Ks` scaled by 1 / 1.3, to reflect at most all light\n";
     for (line, materials) in [
         ("intersect --mesh m.obj --rays r.csv --out h.csv", false),
@@ -53,7 +53,7 @@ fn a_model_with_y_up_stands_up() {
     for line in ["render office --model-up y --size 4x4", "atlas stand-in-head --model-up y"] {
         let ran = run(folder.path(), line);
         assert_eq!(ran.code, Some(2), "{line}");
-        assert!(ran.stderr.contains("applies to model files, but the program builds `"), "{}", ran.stderr);
+        assert!(ran.stderr.contains("is for model files, but `"), "{}", ran.stderr);
     }
     for line in ["alu add --model-up y", "leaky-teapot --model-up y", "intersect --mesh square.stl --model-up x"] {
         assert_eq!(run(folder.path(), line).code, Some(2), "{line}");

@@ -36,7 +36,7 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
     assert!(warning.contains("a format for colors, which the pixel program does not use"), "{warning}");
     assert!(!warning.contains("constants"), "{warning}");
     let shown = run(&["devices", "storing.toml"]).stdout;
-    assert!(shown.contains("Formats of storages and sums") && shown.contains("| constants | e5m2"), "{shown}");
+    assert!(shown.contains("Formats of stored values and of sums") && shown.contains("| constants | e5m2"), "{shown}");
 }
 
 #[test]

@@ -24,9 +24,9 @@ use crate::transfer::visibility::SegmentCensus;
 const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
-      segment by segment, linear, coded in 16 bits
+      segment by segment, in linear clusters (without means), coded in 16 bits
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --json --out small.npz
-      in fewer bits; every segment's error as JSON
+      coded in fewer bits; every segment's error as JSON
 
 The whole transfer is never stored: each segment is computed, compressed and coded before the next.";
 
@@ -38,7 +38,7 @@ pub(super) struct Args {
     #[arg(value_name = "X.npz")]
     signal: PathBuf,
 
-    /// The model that it was made from
+    /// The model from which the file was made
     #[arg(long, value_name = "MODEL")]
     model: PathBuf,
 
@@ -51,7 +51,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = number::whole::<u32>(1..=u32::MAX))]
     vectors: u32,
 
-    /// Bits of the numbers of representatives, and of weights
+    /// Bits per number of the representatives, and per weight
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = number::whole::<u8>(2..=16))]
     bits: u8,
 
@@ -69,12 +69,12 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let (_, vertices, _) = model_of(&args.signal, Some(file.mesh), &args.model, None)?;
     let Some(maps) = &file.visibility else {
         let what = format!("{}: expected visibility, found coded transfer only", args.signal.display());
-        return Err(Problem::usage(what, "name a file that `crossbar all-frequency precompute` wrote").into());
+        return Err(Problem::usage(what, "give a file that `crossbar all-frequency precompute` wrote").into());
     };
     let most = 256 * file.reflectance.terms() as u64;
     if u64::from(args.vectors) > most {
         let what = format!("expected at most {most} `--vectors`, found {}", args.vectors);
-        let help = "this is how many numbers a vertex has in a segment; more vectors do not help";
+        let help = "a vertex has no more numbers in a segment, so more vectors do not help";
         return Err(Problem::usage(what, help).into());
     }
     let options = SegmentOptions {
@@ -162,7 +162,7 @@ fn findings(
         100.0 * after,
         100.0 * before
     ));
-    found.print(format!("time      {transfer:.1} s of transfer, {clusters:.1} s of clusters, {code:.1} s of code"));
+    found.print(format!("time      transfer {transfer:.1} s, clusters {clusters:.1} s, coding {code:.1} s"));
     if let Some(folder) = &args.resume {
         found.print(format!("kept      {taken} segments were finished before, in {}", folder.display()));
     }

@@ -29,14 +29,14 @@ struct LitArgs {
     #[arg(long, value_name = "X.npz")]
     original: Option<PathBuf>,
 
-    /// Number of light coefficients kept, largest area times magnitude first [default: all]
+    /// Number of light coefficients to keep, in descending order of area times magnitude [default: all]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=6144))]
     keep: Option<u32>,
 
     #[command(flatten)]
     picture: PictureArgs,
 
-    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not; it is found with its model
+    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not; the file names its model
     #[arg(long, value_name = "G.npz")]
     ground: Option<PathBuf>,
 }
@@ -78,8 +78,8 @@ fn part(file: AllFrequencyFile, path: &Path, model: &Path) -> miette::Result<(Li
 fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miette::Result<AllFrequencyFile> {
     let original = load_all_frequency(path, Some(mesh))?;
     if original.visibility.is_none() || original.reflectance != file.reflectance || original.hats != file.hats {
-        let what = format!("{}: expected visibility with the same reflectance, found other", path.display());
-        return Err(Problem::usage(what, "name the file that was compressed").into());
+        let what = format!("{}: expected visibility with the same reflectance, found none", path.display());
+        return Err(Problem::usage(what, "give the file from which the transfer was compressed").into());
     }
     Ok(original)
 }
@@ -88,8 +88,8 @@ fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miett
 fn ground(path: &Path) -> miette::Result<LitPart> {
     let file = load_all_frequency(path, None)?;
     let Some(model) = file.model.as_ref().map(|name| path.with_file_name(name)) else {
-        let what = format!("{}: expected a ground, whose file names its model, found none named", path.display());
-        let help = "name the ground that `crossbar all-frequency precompute --ground` wrote, or its compressed form";
+        let what = format!("{}: expected a ground file that names its model, found no name", path.display());
+        let help = "give the ground that `crossbar all-frequency precompute --ground` wrote, or its compressed form";
         return Err(Problem::usage(what, help).into());
     };
     Ok(part(file, path, &model)?.0)
@@ -102,9 +102,9 @@ Examples:
   crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --keep 200 --size 64x48
       beside the uncompressed transfer, with 200 coefficients of the light
   crossbar all-frequency render docs/examples/step_all.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
-      uncompressed, under a red and a blue light
+      from uncompressed transfer, under a red and a blue light
 
-Written to --out: index.html (self-contained), pictures, picture.exr. Every pixel takes its own view, on the host.";
+Written to --out: index.html (self-contained), pictures, picture.exr. The host shades every pixel for its own view.";
 
 /// Draw a model under distant light from its transfer, compressed or not
 #[derive(Debug, clap::Args)]
@@ -134,20 +134,20 @@ impl StudyArgs for Render {
 const CARD_EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --way colors --size 64x48
-      on the Radeon 9800, colors of vertices interpolated as its authors did
+      on the Radeon 9800, with interpolated vertex colors, as the paper's authors did
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --sweep --size 64x48
       the error of fewer bits in representatives, weights, maps and arithmetic, and of compression
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --ground docs/examples/step_all_small.ground.npz --size 64x48
-      with the ground below the model, and its shadow
+      with a ground below the model, and the model's shadow on it
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
 docs/papers/all_frequency.md explains all of it.";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum WayArg {
-    /// None: the host computes vertex colors, which are interpolated
+    /// Only interpolation: the host computes the colors of the vertices
     Colors,
-    /// The product with the view factors, from textures, per pixel
+    /// The product with the view factors, which are read from textures at each pixel
     Products,
 }
 

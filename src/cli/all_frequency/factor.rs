@@ -20,11 +20,12 @@ Examples:
   crossbar all-frequency factor --brdf cook-torrance --roughness 0.4 --fresnel 0.5
       ten terms of the paper's first reflectance: errors, pictures, tables of G and F
   crossbar all-frequency factor --brdf schlick --roughness 0.2 --fresnel 0.8 --denominators quarter
-      the second, without pi and cosines in the denominator
+      the paper's second reflectance, divided by 4 only: no pi and no cosines in the denominator
   crossbar all-frequency factor --brdf cook-torrance --fresnel-form constant --shadowing none --denominators product
-      other forms of its factors
+      the first reflectance with other forms of its factors
   crossbar all-frequency factor --table docs/examples/reflectance.csv --terms 4 --json
-      any table of reflectance times cosine: a row per view, a column per light, by texels of square parabolic maps
+      any table of reflectance times cosine: one row per view and one column per light, \
+both of them texels of a square parabolic map
 
 Written to --out: index.html (self-contained), pictures, singular_values.csv, view_factors and light_factors as .csv and .npy, tables. \
 docs/papers/all_frequency.md explains the options.";
@@ -57,16 +58,16 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "MODEL")]
     brdf: Option<ModelArg>,
 
-    /// A table of reflectance times the cosine of the light's angle, as CSV or NumPy array: a row per texel of the
-    /// view's map, a column per texel of the light's, both square
+    /// A table of reflectance times the cosine of the light's angle, as CSV or NumPy array: one row per texel of
+    /// the view map and one column per texel of the light map, both square
     #[arg(long, value_name = "FILE", conflicts_with = "side", conflicts_with_all = OF_MODEL)]
     table: Option<PathBuf>,
 
-    /// Roughness of cook-torrance and schlick [default: the paper's, 0.4 and 0.2]
+    /// Roughness of cook-torrance and schlick [default: as in the paper, 0.4 and 0.2]
     #[arg(long, value_name = "R", value_parser = number::positive)]
     roughness: Option<f64>,
 
-    /// Reflectance of the facets at normal incidence; the lobe's for phong [default: the paper's, 0.5 and 0.8; 0.5]
+    /// Reflectance at normal incidence; for phong, of the lobe [default: 0.5; as in the paper 0.8 for schlick]
     #[arg(long, value_name = "F", value_parser = number::not_negative)]
     fresnel: Option<f64>,
 
@@ -74,7 +75,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "D", value_parser = variants::<Denominators>())]
     denominators: Option<Denominators>,
 
-    /// Fresnel's term of cook-torrance and schlick [default: dielectric and schlick]
+    /// Fresnel term of cook-torrance and schlick [default: dielectric for cook-torrance, schlick for schlick]
     #[arg(long, value_name = "FORM", value_parser = variants::<FresnelForm>())]
     fresnel_form: Option<FresnelForm>,
 
@@ -86,7 +87,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = number::whole::<u32>(1..=MAX_MAP_SIDE as u32))]
     side: u32,
 
-    /// Terms [default: 10, or the rank of the table if that is less]
+    /// Number of terms [default: 10, or the rank of the table if that is less]
     #[arg(long, value_name = "M", value_parser = number::whole::<u32>(1..=u32::MAX))]
     terms: Option<u32>,
 
@@ -121,7 +122,7 @@ impl Args {
             ("--fresnel-form", self.fresnel_form.is_some() && !is_lobe),
             ("--shadowing", self.shadowing.is_some() && !is_lobe),
         ];
-        given::refuse(foreign, &format!("models other than {name}"), "leave it out, or choose another `--brdf`")
+        given::refuse(foreign, &format!("models other than {name}"), "remove the option, or choose another `--brdf`")
     }
 
     fn model(&self, model: ModelArg) -> Result<(&'static str, FactorSubject), Problem> {

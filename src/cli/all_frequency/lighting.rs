@@ -48,7 +48,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "WHAT", default_value = "area", value_parser = priorities(), requires = "keep")]
     by: TruncationPriority,
 
-    /// Write the radiances of the cube's texels to this file, as `--light` reads them
+    /// Write the radiances of the cube's texels to this file, which `--light` can read
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -75,8 +75,8 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     }));
     let title = format!("{} in {} segments", args.light.name(), args.segments.count());
     found.table(Table::new(title, &["figure", "value"]).with([
-        ["not 0, of 6,144".into(), cut.nonzero.into()],
-        ["kept".into(), cut.kept.into()],
+        ["nonzero coefficients, of 6,144".into(), cut.nonzero.into()],
+        ["kept coefficients".into(), cut.kept.into()],
         ["energy kept (%)".into(), Cell::measured(100.0 * cut.kept_energy)],
         ["texels below 0 after truncation".into(), negative.into()],
     ]));

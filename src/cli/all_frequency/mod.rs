@@ -12,19 +12,19 @@ use super::{CommandLine, Out, Verdict, study};
 const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency factor --brdf cook-torrance
-      reflectance as a sum of products of a function of view and one of light
+      reflectance as a sum of products: a function of the view times a function of the light
   crossbar all-frequency lighting --light sky:1,-1,1 --keep 800
-      light as Haar wavelets, and the energy in 800 of them
+      light as Haar wavelets, and the energy in 800 of the wavelets
   crossbar all-frequency precompute docs/examples/step.obj --out step.npz
       what every vertex sees
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
-      transfer, segment by segment, as clusters of principal components, coded
+      compresses the transfer, segment by segment, to clusters of principal components, and codes them
   crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48
-      pictures of it
+      draws the model from this transfer
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48
-      the same on an emulated card
+      draws the model on an emulated card
 
-docs/npz.md describes the files, docs/papers/all_frequency.md the computation.";
+docs/npz.md describes the files, and docs/papers/all_frequency.md describes the computation.";
 
 /// Precomputed transfer for light of all frequencies, factored, compressed by segments and coded
 #[derive(Debug, clap::Args)]

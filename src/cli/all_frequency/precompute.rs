@@ -35,9 +35,9 @@ Examples:
   crossbar all-frequency precompute docs/examples/step.obj --out step.npz
       what each vertex sees, for light of all frequencies on a diffuse surface
   crossbar all-frequency precompute docs/examples/step.obj --ground 24 --out step.npz
-      the same on a ground, which `crossbar all-frequency render` and `card` draw with their `--ground`
+      the same with a ground below the model, which `crossbar all-frequency render` and `card` draw with `--ground`
 
-The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes transfer of them.";
+The file holds 98,304 bits per vertex: `crossbar all-frequency compress` computes the transfer from them.";
 
 /// Compute what each vertex of a model sees, for light of all frequencies
 #[derive(Debug, clap::Args)]
@@ -46,13 +46,13 @@ pub(super) struct Args {
     #[command(flatten)]
     of: ModelArgs,
 
-    /// Output of `crossbar all-frequency factor`: view_factors.npy and light_factors.npy in a folder [default: the one
-    /// term of a diffuse surface]
+    /// A folder that `crossbar all-frequency factor` wrote, with view_factors.npy and light_factors.npy [default: a
+    /// diffuse surface, which has one term]
     #[arg(long, value_name = "DIR")]
     reflectance: Option<PathBuf>,
 
-    /// Put the model on a diffuse ground of N x N vertices; the paper has 192. Written beside --out, with the endings
-    /// ground.npz and ground.obj: the ground's own file and its model
+    /// Put the model on a diffuse ground of N x N vertices; N is 192 in the paper. The ground's own file and model
+    /// are written beside --out, with the endings ground.npz and ground.obj
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(2..=1024))]
     ground: Option<u32>,
 }
@@ -105,7 +105,7 @@ impl Ground {
     fn new(model: &Mesh, side: u32) -> miette::Result<Self> {
         let mesh = ground_of(model, side);
         let vertices = Vertices::new(&mesh, Tangents::Any).map_err(refused)?;
-        let help = "name a model of fewer triangles, or a smaller ground";
+        let help = "give a model with fewer triangles, or choose a smaller `--ground`";
         let (scene, _) = on_ground(model, side).map_err(|error| Problem::usage(error.to_string(), help))?;
         Ok(Self { mesh, vertices, scene })
     }
@@ -132,7 +132,7 @@ fn write_sight(
     found.print(format!("vertices  {}, {terms} terms of reflectance", counted(vertices.len())));
     note_rays(found, &counts);
     found.print(format!(
-        "segments  {:.1} % hold transfer; of 24, at least {} and on average {:.2} lie below the horizon",
+        "segments  {:.1} % have nonzero transfer; of 24, at least {} and on average {:.2} lie below the horizon",
         100.0 * census.omega(),
         census.least_below,
         census.mean_below()
@@ -169,7 +169,7 @@ fn load_factors(folder: &Path) -> miette::Result<ProductFactors> {
 
 fn no_factors(path: &Path, expected: &str, found: impl Display) -> Problem {
     let what = format!("{}: expected {expected}, found {found}", path.display());
-    Problem::usage(what, "name a folder that `crossbar all-frequency factor` wrote")
+    Problem::usage(what, "give a folder that `crossbar all-frequency factor` wrote")
 }
 
 fn map(path: &Path, table: NumberTable<f64>) -> Result<(ParabolicMap, Vec<f64>), Problem> {

@@ -13,11 +13,11 @@ use crate::report::Findings;
 const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency show docs/examples/step_all_small.npz
-      what is coded, in how many bytes
+      what is coded, and in how many bytes
   crossbar all-frequency show docs/examples/step_all.npz --json
       what the vertices see, as JSON
 
-The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
+The file is an archive of NumPy arrays: docs/npz.md lists them.";
 
 /// Show the contents of a .npz file: visibility, coded segments
 #[derive(Debug, clap::Args)]

@@ -37,7 +37,7 @@ fn no_state(name: &str, is_vertex: bool) -> Problem {
     let stage = if is_vertex { "vertex" } else { "pixel" };
     Problem::usage(
         format!("the {stage} arithmetic of `{name}` has no such state"),
-        "leave `--state` out, or use `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",
+        "remove `--state`, or use `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",
     )
 }
 

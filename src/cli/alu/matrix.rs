@@ -15,7 +15,7 @@ fn codes(cell: &str, element: Element, line: u64) -> Result<Vec<u64>, InputError
     let (digits, name) = (element.digits(), element.name);
     ensure!(
         !cell.is_empty() && cell.len().is_multiple_of(digits) && cell.bytes().all(|byte| byte.is_ascii_hexdigit()),
-        "crossbar::alu::hex" => "line {line}: expected numbers of {name} of {digits} hexadecimal digits each, found `{}`",
+        "crossbar::alu::hex" => "line {line}: expected {name} numbers of {digits} hexadecimal digits each, found `{}`",
         shortened(cell); help "write the numbers one after the other, without separators"
     );
     // Digits are ASCII, as checked above.

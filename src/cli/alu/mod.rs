@@ -27,9 +27,10 @@ Examples:
   echo 3F800000 42C00000 | crossbar alu quantize --format fp32 --block mxfp4
       1 and 96 with a shared scale: prints 83 0 7, which are 2^4, 0 and 6
   echo 6800 3C00 3C00 3C00 3C00 3C00 | crossbar alu dot --format fp16 --accumulator fp32
-      2048 * 1 + 1 * 1 + 1 * 1, summed in single precision: prints 6801, 2050; without --accumulator 2048
+      2048 * 1 + 1 * 1 + 1 * 1, summed in single precision: prints 6801, which is 2050; \
+without `--accumulator` the sum is 2048
   echo 3F800000 B3800000 | crossbar alu add --device nv20
-      1 - 2^-24 by the vertex unit of a GeForce3: prints 3F7FFFFF, a cut sum
+      1 - 2^-24 by the vertex unit of a GeForce3: prints 3F7FFFFF, a truncated sum
   echo 3C008C00 3C000C00 00000000 | crossbar alu dot --unit hopper-f16
       1 * 1 - 2^-12 * 2^-12 on a tensor core of Hopper: prints 3f7fffff; on Volta 3f800000
 
@@ -37,13 +38,14 @@ Lines: hexadecimal operands separated by blanks or commas, as TestFloat writes t
 digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
 08 division by zero, 10 invalid.
 
-Formats: sI.F (fixed point), nI.F (normalized integers: n3.8 counts in 255ths), eXmY (float), eXmYfn and eXmYfnuz (floats \
-without infinity, as e4m3fn and e2m1fn), e8m0 (powers of two), or ps14 fx12 fp16 bf16 fp24 fp32; then, if wanted, rounding \
-:rne :rna :rtz :rdn :rup :rod :rst, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, special values :ieee :nv. e8m23 \
-with :nv2x, :nv3x-legacy, :nv3x, :gt200 or :gt200-zero-wins is the measured unit of a card.
+Formats: sI.F (fixed point), nI.F (normalized integers: n3.8 counts in steps of 1/255), eXmY (float), eXmYfn and \
+eXmYfnuz (floats without infinity, as e4m3fn and e2m1fn), e8m0 (powers of two), or ps14 fx12 fp16 bf16 fp24 fp32; \
+then, optionally, rounding :rne :rna :rtz :rdn :rup :rod :rst, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, \
+special values :ieee :nv. e8m23 with :nv2x, :nv3x-legacy, :nv3x, :gt200 or :gt200-zero-wins is the measured unit of a \
+card.
 
-Stochastic rounding (:rst) takes the word of the line, counted from 0: the upper half of that output of SplitMix64 from the \
-state --seed.";
+With :rst (stochastic rounding), each line uses one random word: line i, counted from 0, uses the upper half of output \
+i of SplitMix64, seeded with --seed.";
 
 /// Apply an operation to bit patterns from standard input, or check given results
 #[derive(Debug, clap::Args)]
@@ -57,22 +59,22 @@ pub(super) struct Args {
     #[arg(long, value_name = "F", required_unless_present_any = ["device", "unit"])]
     format: Option<Format>,
 
-    /// A device, in place of a format: its instruction of this name, by its measured unit or its rules
+    /// A device instead of a format: computes its instruction of this name, with its measured unit or its rules
     #[arg(long, value_name = "D", conflicts_with = "format")]
     device: Option<String>,
 
-    /// The stage of the device; by default the one with a measured unit, otherwise pixels
+    /// The stage of the device [default: the stage with a measured unit, otherwise pixel]
     #[arg(long, requires = "device", value_parser = stages())]
     stage: Option<bool>,
 
-    /// The state of the device's unit; by default modern, or ieee
+    /// The state of the device's unit [default: modern or ieee]
     #[arg(long, requires = "device", value_parser = states())]
     state: Option<State>,
 
-    /// The matrix unit of a GPU in which `dot` sums, as `crossbar units` lists them, in place of --format
+    /// The matrix unit of a GPU in which `dot` sums, instead of --format; `crossbar units` lists the units
     ///
-    /// A line is `a b c`, each with its numbers one after the other; `ta tb a b c` where the unit takes several types,
-    /// and `a b c sa sb` where it has scales.
+    /// A line is `a b c`, each with its numbers one after the other; `ta tb a b c` if the unit supports several
+    /// types, and `a b c sa sb` if it has scales.
     #[arg(long, value_name = "UNIT", value_parser = MatrixUnit::find,
           conflicts_with_all = ["format", "device", "to", "block", "accumulator", "summation", "flags", "seed"])]
     unit: Option<MatrixUnit>,
@@ -81,7 +83,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "F2")]
     to: Option<Format>,
 
-    /// The block format of `quantize` and `dequantize`, whose --format is that of the plain numbers
+    /// The block format of `quantize` and `dequantize`, which use --format for the plain numbers
     #[arg(long, value_name = "B", value_parser = blocks())]
     block: Option<BlockFormat>,
 
@@ -92,12 +94,12 @@ pub(super) struct Args {
     /// The order in which `dot` sums: `sequential`, `tree`, `exact` or `aligned:F`; by default sequential
     ///
     /// sequential: ((x + y) + z) + w, each step rounded. tree: (x + y) + (z + w), each step rounded. exact: the exact
-    /// sum, rounded once into the accumulator. aligned:F, of floats: one adder for all rounded products, which drops
-    /// what lies more than F bits, 0 to 28, below the largest exponent; its sum is rounded once.
+    /// sum, rounded once into the accumulator. aligned:F, for floats: one adder for all rounded products
+    /// drops bits that are more than F (0 to 28) below the largest exponent, and rounds the sum once.
     #[arg(long, value_name = "ORDER", value_parser = summation)]
     summation: Option<DotOrder>,
 
-    /// Lines carry expected results too, as testfloat_gen writes them: print every mismatch, then the count
+    /// Lines also have expected results, as testfloat_gen writes them: print every mismatch, then the counts
     ///
     /// A line is operands, result and flags; the flags may be missing unless --flags asks for their comparison. Any NaN
     /// matches any other; with --unit, `nan` matches any NaN.
@@ -197,20 +199,20 @@ fn unit(args: &Args, (format, sums): AluArithmetic) -> Result<AluUnit, Problem> 
         return usage("`--accumulator` and `--summation` are for `dot` only", help);
     }
     if is_block && args.block.is_none() {
-        return usage("blocks need a block format", "add for example `--block mxfp4`");
+        return usage("blocks need a block format", "add a block format, for example `--block mxfp4`");
     }
     if !is_block && args.block.is_some() {
-        let help = "leave `--block` out, or quantize first and compute with the elements";
+        let help = "remove `--block`, or quantize first and compute with the elements";
         return usage("`--block` is for `quantize` and `dequantize` only", help);
     }
     if op.takes_many() && (args.verify || args.to.is_some()) {
-        let help = "leave the option out; `--format` is the format of the plain numbers";
+        let help = "remove the option; `--format` is the format of the plain numbers";
         return usage("operations on lines of many numbers support neither `--verify` nor `--to`", help);
     }
     if op.takes_many() && (by_chance(&format) || by_chance(&accumulator)) {
         let help = "use another rounding, or round each number on its own line";
         return usage(
-            "operations on lines of many numbers round more than once, and `:rst` has one word for a line",
+            "operations on lines of many numbers round more than once, and `:rst` has one random word per line",
             help,
         );
     }
@@ -222,11 +224,11 @@ fn unit(args: &Args, (format, sums): AluArithmetic) -> Result<AluUnit, Problem> 
     }
     match (op == AluOperation::Convert, args.to) {
         (true, None) => {
-            let help = "add for example `--to fp16`; `--format` is the source format";
+            let help = "add a result format, for example `--to fp16`; `--format` is the source format";
             usage("`convert` needs a result format", help)
         }
         (false, Some(_)) => {
-            let help = "leave `--to` out, or convert the result in a second run";
+            let help = "remove `--to`, or convert the result in a second run";
             usage("`--to` is for `convert` only: every other operation stays in its format", help)
         }
         (_, to) => Ok(AluUnit {

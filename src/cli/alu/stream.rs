@@ -74,7 +74,7 @@ pub(super) fn run(
     // A check without any lines must not pass: the generator of the lines may have failed.
     if passed + failed == 0 {
         let empty = input_error!("crossbar::alu::empty" => "expected at least one line to verify, found none";
-            help "pipe lines in, as from `testfloat_gen f16_add`");
+            help "pipe lines to the command, for example from `testfloat_gen f16_add`");
         return Err(empty.into());
     }
     if json {

@@ -19,18 +19,18 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
   crossbar bi-scale bicluster docs/examples/quarters.mtx --out biclusters.npz
-      writes them to a file that `crossbar bi-scale show` reads
+      writes the biclusters to a file that `crossbar bi-scale show` reads
   crossbar bi-scale bicluster docs/examples/quarters.mtx --json
       the figures as JSON
 
-The values must be multiples of one power of two, at least 2^-30, that 32 bits hold. The sum of the biclusters equals \
-the matrix bit for bit.";
+The values must be multiples of a single power of two (2^-30 or larger), and the factors must fit into 32 bits. The \
+sum of the biclusters equals the matrix bit for bit.";
 
-/// Make biclusters of any sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
+/// Split any sparse matrix into biclusters, without loss: its product with a vector takes fewer operations and bytes
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// A Matrix Market file (.mtx), or what `crossbar bi-scale precompute` wrote
+    /// A Matrix Market file (.mtx), or a file that `crossbar bi-scale precompute` wrote
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
@@ -48,7 +48,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     })?;
     let start = Instant::now();
     let biclusters =
-        made(matrix).map_err(|error| Problem::usage(format!("{name}: {error}"), "name a smaller matrix"))?;
+        made(matrix).map_err(|error| Problem::usage(format!("{name}: {error}"), "use a smaller matrix"))?;
     let seconds = start.elapsed().as_secs_f64();
     let values = value_counts(&file);
     let (rows, columns, nonzeros) = (matrix.rows(), matrix.columns(), matrix.nonzeros());
@@ -60,15 +60,15 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         ("values other than 0", Some(nonzeros.into())),
         ("values are", Some(unit(matrix.fraction_bits()).into())),
         ("biclusters", Some(biclusters.len().into())),
-        ("their rows", Some(biclusters.row_entries().into())),
-        ("their columns", Some(biclusters.column_entries().into())),
+        ("rows of the biclusters", Some(biclusters.row_entries().into())),
+        ("columns of the biclusters", Some(biclusters.column_entries().into())),
         ("operations per product, matrix", Some(before.into())),
         ("operations per product, biclusters", Some(after.into())),
-        ("share (%)", (before > 0).then(|| Cell::measured(100.0 * after as f64 / before as f64))),
-        ("bytes, dense, a byte each", Some(dense_1.into())),
+        ("share of operations (%)", (before > 0).then(|| Cell::measured(100.0 * after as f64 / before as f64))),
+        ("bytes, dense, 1 byte per value", Some(dense_1.into())),
         ("bytes, dense, floats", Some(dense_4.into())),
-        ("bytes, by rows, 3 bytes each", Some(rows_3.into())),
-        ("bytes, by rows, 8 bytes each", Some(rows_8.into())),
+        ("bytes, by rows, 3 bytes per value", Some(rows_3.into())),
+        ("bytes, by rows, 8 bytes per value", Some(rows_8.into())),
         ("bytes, biclusters", Some(of_biclusters.into())),
         ("seconds", Some(Cell::measured(seconds))),
     ];

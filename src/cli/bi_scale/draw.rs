@@ -27,8 +27,8 @@ use crate::transfer::Vertices;
 /// Textures, the sampling of patches, and their placement.
 #[derive(Debug, clap::Args)]
 struct TextureArgs {
-    /// The bidirectional texture of a material, or of all that have none of their own: a file (.npy) that `crossbar
-    /// bi-scale texture` wrote or one like it, or a patch: bumps, mail, tiles, bricks, weave
+    /// The bidirectional texture of a material, or of all materials without their own texture: a file (.npy) as
+    /// `crossbar bi-scale texture` writes it, or a patch: bumps, mail, tiles, bricks, weave
     #[arg(long, required = true, value_name = "[MATERIAL=]B.npy")]
     texture: Vec<TextureArg>,
 
@@ -92,17 +92,17 @@ impl TextureArgs {
         if self.texture.iter().all(|texture| texture.patch().is_none()) {
             let of_patches =
                 [("--texture-size", self.texture_size.is_some()), ("--texture-views", self.texture_views.is_some())];
-            let help = "leave it out: a file has its own size";
+            let help = "remove the option: a file has its own size";
             given::refuse(of_patches, "textures of patches, found files only", help)?;
         }
         let file = load_bi_scale(path)?;
         let Some(meaning) = file.meaning else {
             let what = format!("{}: expected transfer of a mesh, found another matrix", path.display());
-            return Err(Problem::usage(what, "name what `crossbar bi-scale precompute` wrote").into());
+            return Err(Problem::usage(what, "give output of `crossbar bi-scale precompute`, or its biclusters").into());
         };
         let (model, vertices, _) = model_of(path, Some(meaning.mesh), name, self.crease)?;
         let light = LocalDirections::new(meaning.side as usize)
-            .map_err(|error| Problem::usage(error.to_string(), "name another file"))?;
+            .map_err(|error| Problem::usage(error.to_string(), "give another file"))?;
         let (materials, material_of) = materials_of(name, &model)?;
         let of_material = self.of_materials(&materials)?;
         let texture_of = material_of.iter().map(|&material| of_material[material as usize]).collect();
@@ -122,13 +122,13 @@ impl TextureArgs {
         for (at, TextureArg { material, .. }) in self.texture.iter().enumerate() {
             if self.texture[..at].iter().any(|before| before.material == *material) {
                 let of = material.as_deref().map_or("all other materials".to_owned(), |name| format!("`{name}`"));
-                return Err(Problem::usage(format!("expected one texture for {of}, found two"), "leave one out"));
+                return Err(Problem::usage(format!("expected one texture for {of}, found two"), "remove one of them"));
             }
             let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();
             if let Some(name) = material.as_deref().filter(|name| !names.contains(name)) {
                 let meant = did_you_mean(name, names.iter().copied());
                 let what = format!("the model has no material `{name}`");
-                return Err(Problem::usage(what, format!("{meant}there are {}", names.join(", "))));
+                return Err(Problem::usage(what, format!("{meant}the materials are {}", names.join(", "))));
             }
         }
         let of = |material: &Material| {
@@ -136,7 +136,7 @@ impl TextureArgs {
             let found = own.or_else(|| self.texture.iter().position(|texture| texture.material.is_none()));
             found.map(|at| at as u32).ok_or_else(|| {
                 let what = format!("expected a texture for material `{}`, found none", material.name);
-                Problem::usage(what, "name one for all: `--texture mail`, or `--texture B.npy`")
+                Problem::usage(what, "add a texture for all materials: `--texture mail`, or `--texture B.npy`")
             })
         };
         materials.iter().map(of).collect()
@@ -160,7 +160,7 @@ impl TextureArgs {
 }
 
 fn no_coordinates(model: &Path, error: impl Display) -> Problem {
-    Problem::usage(format!("{}: {error}", model.display()), "name a model with texture coordinates (`vt`)")
+    Problem::usage(format!("{}: {error}", model.display()), "give a model with texture coordinates (`vt`)")
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -260,7 +260,7 @@ impl StudyArgs for Card {
         let TexturedTransfer { file, model, vertices, textures, texture_of } = self.textures.load(&self.file, name)?;
         let biclusters = file.biclusters.ok_or_else(|| {
             let what = format!("{}: expected biclusters, found a matrix only", self.file.display());
-            Problem::usage(what, "`crossbar bi-scale bicluster` makes them")
+            Problem::usage(what, "run `crossbar bi-scale bicluster` to make biclusters")
         })?;
         let coordinates = corner_coordinates(&model.mesh, [self.textures.repeat as f32; 2])
             .map_err(|error| no_coordinates(name, error))?;

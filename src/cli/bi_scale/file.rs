@@ -35,7 +35,7 @@ pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
     let coordinates = load_matrix_market(path)?;
     require_size(path, [coordinates.rows, coordinates.columns])?;
     let matrix = SparseMatrix::from_coordinates(&coordinates)
-        .map_err(|reason| Problem::usage(format!("{}: {reason}", path.display()), "name another matrix"))?;
+        .map_err(|reason| Problem::usage(format!("{}: {reason}", path.display()), "use another matrix"))?;
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
 }
 
@@ -47,12 +47,12 @@ fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem>
         return Ok(());
     }
     let what = format!("{}: expected at most {MOST} rows and columns, found {rows} x {columns}", path.display());
-    Err(Problem::usage(what, "name a smaller matrix"))
+    Err(Problem::usage(what, "use a smaller matrix"))
 }
 
 /// The unit of values, in words.
 pub(super) fn unit(fraction_bits: u32) -> String {
-    if fraction_bits == 0 { "whole numbers".to_owned() } else { format!("whole numbers of 2^-{fraction_bits}") }
+    if fraction_bits == 0 { "whole numbers".to_owned() } else { format!("multiples of 2^-{fraction_bits}") }
 }
 
 /// Values with their counts: of a matrix, or of biclusters, in their columns times their rows.

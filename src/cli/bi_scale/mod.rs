@@ -16,13 +16,13 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       a sparse matrix as a sum of biclusters
   crossbar bi-scale texture mail --texels 8 --directions 4 --views 4 --out mail.npy
-      the response of a patch of heights by place, view and light
+      how a patch of heights reflects light, by place, view and light
   crossbar bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
-      pictures of both
+      draws the model from transfer and texture
   crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
-      the same on an emulated card
+      draws the model on an emulated card
 
-docs/npz.md describes the files, docs/papers/bi_scale.md the computation.";
+docs/npz.md describes the files, and docs/papers/bi_scale.md describes the computation.";
 
 /// Bi-scale transfer: a sparse matrix of visibility as biclusters, times bidirectional textures
 #[derive(Debug, clap::Args)]

@@ -39,7 +39,7 @@ pub(super) struct Args {
     directions: u8,
 
     /// Recompute normals from the triangles, smooth over edges up to this angle in degrees; `crossbar bi-scale render`
-    /// needs the same [default: the model's own normals]
+    /// needs the same angle [default: use the model's own normals]
     #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
     crease: Option<f64>,
 }
@@ -56,7 +56,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
     let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut show).map_err(refused)?;
     let matrix = transfer_matrix(&vertices, &maps, &directions).map_err(|error| {
-        Problem::usage(error.to_string(), "name a model of fewer vertices, or ask for fewer `--directions`")
+        Problem::usage(error.to_string(), "give a model with fewer vertices, or choose fewer `--directions`")
     })?;
     let counts = maps.counts.clone();
     drop((bar, maps));

@@ -18,7 +18,7 @@ use crate::report::{Cell, Findings, Table};
 const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale show docs/examples/court_biclusters.npz
-      values, and biclusters by size
+      the values, and the biclusters by size
   crossbar bi-scale show docs/examples/quarters.mtx --json
       any sparse matrix, as JSON
   crossbar bi-scale show docs/examples/step_biclusters.npz --matrix step.mtx
@@ -28,11 +28,11 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Matrix Market file (.mtx), or what `crossbar bi-scale precompute` or `bicluster` wrote
+    /// A Matrix Market file (.mtx), or a file that `crossbar bi-scale precompute` or `bicluster` wrote
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    /// Write the matrix, or the sum of the biclusters, which is the same, to this Matrix Market file
+    /// Write the matrix (or the sum of the biclusters, which is the same) to this Matrix Market file
     #[arg(long, value_name = "X.mtx")]
     matrix: Option<PathBuf>,
 }
@@ -72,7 +72,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
 }
 
 fn write_text(file: &BiScaleFile, name: &Path, path: &Path) -> Result<(), Problem> {
-    let refused = |error: String| Problem::usage(error, "name another file");
+    let refused = |error: String| Problem::usage(error, "give another file");
     let sum = match (&file.matrix, &file.biclusters) {
         (None, Some(biclusters)) => {
             Some(biclusters.sum().map_err(|error| refused(format!("{}: {error}", name.display())))?)

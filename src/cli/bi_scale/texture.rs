@@ -24,19 +24,19 @@ use crate::report::Findings;
 const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale texture mail --texels 16 --directions 4 --views 4 --out mail.npy --sheet mail.png
-      rings of wire, seen from 16 views and lit from 16 directions; a picture of those lit from each
+      rings of wire, seen from 16 views and lit from 16 directions; and a picture of the rings lit from each direction
   crossbar bi-scale texture bumps --texels 16 --directions 4 --views 4 --out bumps.npy --json
       the figures as JSON
 
-The file is a NumPy array of shape (views, lights, size, size, 3): docs/papers/bi_scale.md says what its numbers are. \
+The file is a NumPy array of shape (views, lights, size, size, 3): docs/papers/bi_scale.md explains its numbers. \
 `crossbar bi-scale render --texture` also reads textures from elsewhere if they have this shape.";
 
-/// Make a bidirectional texture of a patch of heights: its response by place, view and light
+/// Make a bidirectional texture of a patch of heights: how it reflects light, by place, view and light
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// bumps, mail, tiles, bricks, weave, plain; or heights of a square patch that repeats: a table (.csv, .npy) in
-    /// edges of the patch, or a picture
+    /// bumps, mail, tiles, bricks, weave, plain; or the heights of a square patch that repeats: a table (.csv, .npy)
+    /// in units of the patch's edge, or a picture
     #[arg(value_name = "PATCH")]
     source: PathBuf,
 
@@ -48,7 +48,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = number::whole::<u8>(1..=64))]
     directions: u8,
 
-    /// View directions per side of such a square
+    /// View directions per side of the square that is mapped to the hemisphere
     #[arg(long, value_name = "K", default_value_t = 12, value_parser = number::whole::<u8>(1..=64))]
     views: u8,
 
@@ -100,11 +100,11 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         "views": views, "lights": lights, "size": size, "depth": depth, "bytes": bytes, "bytes_of_8_bits": bytes / 4,
         "mean_reflectance": mean, "largest": largest, "seconds": seconds,
     }));
-    found.print(format!("patch     {size} x {size} texels, {depth:.3} of its edge deep"));
+    found.print(format!("patch     {size} x {size} texels, depth {depth:.3} of its edge"));
     let texels = counted(bytes / 12);
     found.print(format!("samples   {views} views x {lights} directions of light, {texels} texels"));
     let [red, green, blue] = mean.map(|mean| format!("{mean:.3}"));
-    found.print(format!("mean      {red}, {green}, {blue} of light from everywhere, over all texels and views"));
+    found.print(format!("mean      {red}, {green}, {blue} of uniform light is reflected, over all texels and views"));
     found.print(format!("bytes     {} as written; {} with 8 bits per channel", counted(bytes), counted(bytes / 4)));
     written(&mut found, [("out", Some(args.out.as_path())), ("sheet", args.sheet.as_deref())]);
     Ok(found)

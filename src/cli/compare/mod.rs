@@ -19,13 +19,13 @@ Examples:
   crossbar compare fixtures/cases/transform.toml --right-switch rounding=rtz --pixel 2,2
       two settings of an open switch, compared step by step at one pixel even if its stored values are equal
 
-Sides are compared by the results of the draw: every stored bit of targets and depth buffer, and the counts. Where \
-they differ, the first differing pixel is followed on both sides to the first pass, stage, instruction and component. \
-docs/compare.md describes the comparison, and ULPs between two formats.
+Sides are compared by the results of the draw: every stored bit of targets and depth buffer, and the counts. If \
+they differ, the first differing pixel is traced on both sides, down to the first pass, stage, instruction and \
+component that differ. docs/compare.md describes the comparison, and ULPs between two formats.
 
 Exit codes: 0 the sides are equal, 1 they differ, 2 the case cannot be run.";
 
-/// Run a case on two executors, formats or devices and name the first difference, down to the instruction
+/// Run a case on two executors, formats or devices and report the first difference, down to the instruction
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
@@ -40,19 +40,19 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_enum, value_name = "EXECUTOR")]
     right: Option<DeviceExecutor>,
 
-    /// Device on the left, in place of the case's
+    /// Device on the left [default: the case's device]
     #[arg(long, value_name = "D")]
     left_device: Option<String>,
 
-    /// Device on the right
+    /// Device on the right [default: the case's device]
     #[arg(long, value_name = "D")]
     right_device: Option<String>,
 
-    /// Format of the pixel registers on the left, in place of the device's
+    /// Format of the pixel registers on the left [default: the device's format]
     #[arg(long, value_name = "F")]
     left_format: Option<String>,
 
-    /// Format of the pixel registers on the right
+    /// Format of the pixel registers on the right [default: the device's format]
     #[arg(long, value_name = "F")]
     right_format: Option<String>,
 
@@ -82,8 +82,8 @@ impl Args {
         let other = if left == right { DeviceExecutor::Batch } else { left_executor };
         let right_executor = self.right.unwrap_or(other);
         if left == right && left_executor == right_executor {
-            let help = "let the sides differ: `--right batch`, `--right-format fp32`, `--right-device r300` or \
-                        `--right-switch rounding=rtz` for example";
+            let help = "make the sides different, for example with `--right batch`, `--right-format fp32`, \
+                        `--right-device r300` or `--right-switch rounding=rtz`";
             return Err(Problem::usage("both sides are the same", help).into());
         }
         let overrides = [overrides("left", left)?, overrides("right", right)?];

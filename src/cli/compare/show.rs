@@ -69,7 +69,7 @@ impl ShownComparison<'_> {
             ))?;
             if !side.setup.left_out.is_empty() {
                 out.line(format_args!(
-                    "       switches ignored, which this device lacks: {}",
+                    "       ignored switches, which this device does not have: {}",
                     side.setup.left_out.join(", ")
                 ))?;
             }
@@ -132,7 +132,7 @@ impl ShownComparison<'_> {
         self.print_difference(difference, out)?;
         if let Some(later) = &difference.instruction {
             out.line("")?;
-            out.line("the first instruction of the pass that is affected:")?;
+            out.line("the first affected instruction of the pass:")?;
             self.print_difference(later, out)?;
         }
         Ok(())

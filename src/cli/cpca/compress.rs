@@ -23,11 +23,11 @@ Examples:
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --out small.npz
       each vertex as the mean of its cluster and three weighted vectors
   crossbar cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --method adaptive --json --out small.npz
-      vectors redistributed among the clusters; every step's error as JSON
+      redistributes vectors among the clusters; the error of every step as JSON
   crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --out small.npz
-      a signal of your own, a line of numbers per point
+      your own signal, with a line of numbers per point
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --out small.npz
-      fewer triangles drawn in two clusters, for 5 % more error
+      draws fewer triangles in two clusters, for at most 5 % more error
 
 CSV and NumPy arrays hold a row per point. The output file holds the clusters and their provenance.";
 
@@ -43,11 +43,11 @@ pub(super) struct Args {
     #[arg(value_name = "SIGNAL")]
     signal: PathBuf,
 
-    /// Clusters: 1 to as many as there are points [default: 256]
+    /// Number of clusters: 1 to the number of points [default: 256]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=u32::MAX))]
     clusters: Option<u32>,
 
-    /// Vectors per cluster; 0 is vector quantisation [default: 8, or as many as a point has numbers]
+    /// Vectors per cluster; 0 is vector quantisation [default: 8, or fewer if a point has fewer numbers]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=u32::MAX))]
     vectors: Option<u32>,
 
@@ -59,7 +59,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "Y.npz")]
     out: PathBuf,
 
-    /// The model that the transfer was made from, as it was given to `precompute`
+    /// The model from which the transfer was made, as given to `precompute`
     #[arg(long, value_name = "MODEL", help_heading = "Clusters on the mesh")]
     model: Option<PathBuf>,
 
@@ -84,7 +84,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (mut moved, energy) = (None, signal.sum_of_squares());
     if let (Some((_, vertices, _)), Some(share)) = (model, args.reclassify) {
         let found = reclassify(&signal, &clustering, vertices.triangles(), share);
-        let help = "name the model that the transfer was made from";
+        let help = "give the model from which the transfer was made";
         let found = found.map_err(|error| Problem::usage(error.to_string(), help))?;
         moved = Some(MovedVertices::new(&found, vertices.triangles().len(), energy));
         clustering = found.clustering;
@@ -105,7 +105,7 @@ impl Args {
         let more = "remove `--reclassify`, or give `--clusters` 2 or more";
         given::refuse(one_cluster, "several clusters, and `--clusters` is 1", more)?;
         let no_moves = [("--model", self.model.is_some() && self.reclassify.is_none())];
-        given::refuse(no_moves, "`--reclassify`", "name it, or leave the model out")
+        given::refuse(no_moves, "`--reclassify`", "remove `--model`, or add `--reclassify`")
     }
 
     fn method(&self) -> CpcaMethod {
@@ -117,7 +117,7 @@ impl Args {
         let (clusters, vectors) = (self.clusters.unwrap_or(256), self.vectors.unwrap_or(most.min(8)));
         if vectors > most {
             let what = format!(
-                "expected at most {most} `--vectors`, the lesser of points and numbers per point, found {vectors}"
+                "expected at most {most} `--vectors`, the lesser of points and of numbers per point, found {vectors}"
             );
             return Err(Problem::usage(what, "more vectors do not help"));
         }
@@ -148,7 +148,7 @@ impl Args {
 
 fn refused(error: &CpcaError) -> Problem {
     let help = match error {
-        CpcaError::Clusters { .. } => "choose fewer `--clusters`, or name a larger signal",
+        CpcaError::Clusters { .. } => "choose fewer `--clusters`, or use a larger signal",
         CpcaError::Vectors { .. } => "choose fewer `--vectors`",
         _ => "see `crossbar cpca compress --help`",
     };
@@ -164,7 +164,8 @@ impl MovedVertices {
         let [before, after] = drawn.map(|drawn| drawn as f64 / triangles.max(1) as f64);
         let share = measured(if energy > 0.0 { added_error / energy } else { 0.0 });
         let line = format!(
-            "moved     {} vertices, for {share} of the signal's squares; triangles drawn {before:.3} times, then {after:.3}",
+            "moved     {} vertices; the error grew by {share} of the signal's sum of squares; each triangle was drawn \
+             {before:.3} times on average, now {after:.3}",
             counted(moved)
         );
         let document = json!({

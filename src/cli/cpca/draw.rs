@@ -19,7 +19,7 @@ Examples:
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --original docs/examples/step.npz --light disk:1,0,2:20 --size 64x48
       beside the uncompressed transfer: differences, and the error of every vertex
   crossbar cpca render docs/examples/step.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
-      uncompressed
+      from uncompressed transfer
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --light scene:cornell-box@0.28,0.28,0.4 --size 64x48
       under the light at a place in a room, path-traced
 
@@ -61,8 +61,8 @@ impl StudyArgs for Render {
             let PrtFile { meaning, transfer, .. } = load_prt(path, Some(&digest))?;
             let fits = transfer.filter(|_| meaning == file.meaning);
             Ok(fits.ok_or_else(|| {
-                let what = format!("{}: expected uncompressed transfer of the same kind, found other", path.display());
-                Problem::usage(what, "name the file that was compressed")
+                let what = format!("{}: expected uncompressed transfer of the same kind, found none", path.display());
+                Problem::usage(what, "give the file from which the transfer was compressed")
             })?)
         });
         Ok(Rendering {
@@ -132,7 +132,7 @@ impl StudyArgs for Card {
         let (model, vertices, _) = model_of(&self.file, file.mesh, &self.picture.model, None)?;
         let clustering = file.clustering.take().ok_or_else(|| {
             let what = format!("{}: expected clusters, found transfer only", self.file.display());
-            Problem::usage(what, "`crossbar cpca compress` makes them")
+            Problem::usage(what, "run `crossbar cpca compress` to make clusters")
         })?;
         let light_order = light_order(&file)?;
         // Signed 16-bit maps if the card has them, otherwise signed 8-bit maps.

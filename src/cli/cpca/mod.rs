@@ -10,17 +10,17 @@ use super::{CommandLine, Out, Verdict, study};
 const EXAMPLES: &str = "\
 Examples:
   crossbar cpca precompute docs/examples/step.obj --out step.npz
-      transfer of every vertex
+      computes the transfer of every vertex
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --out small.npz
-      the same by 8 clusters of 3 vectors
+      compresses the transfer to 8 clusters with 3 vectors each
   crossbar cpca show docs/examples/step_small.npz
-      the contents of a file
+      shows the contents of a file
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
-      pictures of it
+      draws the model from this transfer
   crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
-      the same on an emulated card
+      draws the model on an emulated card
 
-docs/npz.md describes the files, docs/papers/cpca.md the computation.";
+docs/npz.md describes the files, and docs/papers/cpca.md describes the computation.";
 
 /// Precomputed radiance transfer in harmonics, compressed by clustered principal components
 #[derive(Debug, clap::Args)]

@@ -25,7 +25,7 @@ use crate::transfer::file::save_prt;
 const EXAMPLES: &str = "\
 Examples:
   crossbar cpca precompute docs/examples/step.obj --out step.npz
-      diffuse transfer with shadows, light of order 5, the materials of the file
+      diffuse transfer with shadows, for light of order 5 and the materials of the file
   crossbar cpca precompute docs/examples/step.obj --kind glossy --rows 24 --brdf phong:0.2,0.6,20 --bounces 2 --out step.npz
       matrices of 24 x 25 with two bounces, one glossy material
   crossbar cpca precompute transfer-bird --kind glossy --brdf ward:0.1,0.3,0.1,0.4 --tangents texture --out bird.npz
@@ -33,8 +33,8 @@ Examples:
   crossbar cpca precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.npz
       light that scatters below the surface, in three channels
 
-The file holds a matrix of 32-bit floats per vertex: `crossbar cpca compress` makes it small. It is written whole at the end: an interrupted \
-run leaves nothing, and cannot be resumed.";
+The file holds a matrix of 32-bit floats per vertex: `crossbar cpca compress` makes it smaller. The file is \
+written at the end: an interrupted run leaves no file and cannot be resumed.";
 
 /// Order of incident radiance in harmonics, as in the paper.
 const INCIDENT_ORDER: usize = 5;
@@ -70,7 +70,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "COUNT", value_parser = rows)]
     rows: Option<ExitBasis>,
 
-    /// One reflectance for all of the model: lambert:A, phong:A,S,EXPONENT, cook-torrance:A,S,ROUGHNESS,F0,
+    /// One reflectance for the whole model: lambert:A, phong:A,S,EXPONENT, cook-torrance:A,S,ROUGHNESS,F0,
     /// schlick:A,S,ROUGHNESS,ISOTROPY,F0, ward:A,S,X,Y or ashikhmin-shirley:A,S,U,V with albedo A and specular
     /// reflectance S [default: the model's materials]
     #[arg(long, value_name = "BRDF", value_parser = brdf)]
@@ -88,19 +88,19 @@ pub(super) struct Args {
     #[arg(long, value_name = "C", default_value = "scalar", value_parser = channels_of())]
     channels: &'static [usize],
 
-    /// Size D of the quadrature over each hemisphere, 18 to 255. From 40 on D / 2 + 1 rings of D + 2 directions
-    /// of different heights; below, rings of D + 1 directions, each ring of one height
+    /// Size D of the quadrature over each hemisphere, 18 to 255. From 40 on, it has D / 2 + 1 rings of D + 2
+    /// directions at different heights; below 40, rings of D + 1 directions, each ring at one height
     #[arg(long, value_name = "D", default_value_t = 44, value_parser = number::whole::<u16>(18..=255))]
     degree: u16,
 
-    /// Bounces: interreflections before the reflection towards the eye
+    /// Number of interreflections before the reflection towards the eye
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = number::whole::<u32>(0..=100))]
     bounces: u32,
 }
 
 /// Values of `--channels`: the channels of transfer; red, green and blue are 0, 1 and 2.
 fn channels_of() -> OneOf<&'static [usize]> {
-    let scalar = ("scalar", "One for all, with the reflectances of green", &[1][..]);
+    let scalar = ("scalar", "One channel, with the reflectances of green", &[1][..]);
     one_of([scalar, ("rgb", "Red, green and blue", &[0, 1, 2])])
 }
 
@@ -143,7 +143,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         findings.field("off_host", json!({ "coefficients": differing, "relative_rms": off }));
         let [differing, off] = [counted(differing as usize), measured(off)];
         findings.print(format!(
-            "engine: {differing} coefficients differ from those by the host's rays, with a relative RMS of {off}"
+            "engine: {differing} coefficients differ from those by rays of the host, with a relative RMS of {off}"
         ));
     }
     Ok(findings)
@@ -174,7 +174,7 @@ fn channels(args: &Args, model: &Model) -> Result<Vec<(usize, Vec<Brdf>)>, Probl
         let of_surface = || Brdf::of_surface(&material.surface, channel);
         args.brdf.map_or_else(of_surface, Ok).map_err(|error| {
             let what = format!("material `{}`: {error}", material.name);
-            Problem::usage(what, "give a `--brdf` for all of the model")
+            Problem::usage(what, "give a `--brdf` for the whole model")
         })
     };
     let of = |&channel: &usize| {

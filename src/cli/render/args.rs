@@ -20,31 +20,31 @@ Examples:
   crossbar render docs/examples/teapot.obj --device r200 --size 256x256 --eye 0,-10,4 --target 0,0,1 --out out/leaky
       the same on a Radeon 8500
   crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out out/room
-      a scene of the project by path tracing: also colour, normals and albedo in layers.exr
+      a built-in scene by path tracing; layers.exr also has colour, normals and albedo
   crossbar render teapot-room --caster engine --caster-device r300
-      after Whitted, with first hits found by the Ray Engine on a Radeon 9700";
+      Whitted's ray tracing; the Ray Engine on a Radeon 9700 finds the first hits";
 
 /// Render a mesh or a scene: picture.png, and depth and triangle of each pixel
 ///
-/// An OBJ, PLY, STL or glTF file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or
-/// from a scene file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the
-/// Ray Engine.
+/// An OBJ, PLY, STL or glTF file is shaded by a lamp at the eye; exact arithmetic or a card finds the hits of the eye
+/// rays. A built-in scene, a scene file, or any input with `--renderer` is drawn with its lights; the host's octree or
+/// the Ray Engine finds the first hits.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
-    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene of the project: cornell-box, harbour,
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a built-in scene: cornell-box, harbour,
     /// office, office-floor, teapot-room, white-box
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
 
-    /// Pixels of the picture
+    /// Size of the picture, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     pub(super) size: Size,
 
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// The card for a mesh without `--renderer`, and for an environment map; `exact` arithmetic needs none
+    /// The card for a mesh without `--renderer`, and for an environment map; not needed for `exact` arithmetic
     /// [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
@@ -71,11 +71,11 @@ pub(super) enum Renderer {
     Eye,
     /// Point lights, hard shadows, mirrors, glass
     Whitted,
-    /// The same, but mirrors show a cube map of their surroundings, drawn by `--device`
+    /// Like whitted, but mirrors show a cube map of their surroundings, drawn by `--device`
     Environment,
     /// Soft shadows, gloss, depth of field; no light between diffuse surfaces
     Distributed,
-    /// All light, by random walks, unbiased
+    /// All light, by unbiased random walks
     Path,
     /// All light, by photon maps and final gather
     Photon,
@@ -97,15 +97,15 @@ impl Renderer {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Light")]
 pub(super) struct LightArgs {
-    /// Rendering method [default for scenes by name: whitted]
+    /// Rendering method [default: whitted for built-in scenes and scene files, otherwise eye]
     #[arg(long, value_enum, value_name = "R")]
     pub(super) renderer: Option<Renderer>,
 
-    /// Samples per pixel [default: 1 for eye, environment and `--drawn-eyes`, 4 for whitted, else 16]
+    /// Samples per pixel [default: 1 for eye, environment and `--drawn-eyes`, 4 for whitted, otherwise 16]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
-    /// Maximum number of surfaces on a path from lamp to eye; not for eye rays [default: 8]
+    /// Maximum number of surfaces on a path from lamp to eye; not for eye and environment [default: 8]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=1024))]
     pub(super) depth: Option<u32>,
 
@@ -113,15 +113,15 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = number::whole::<u64>(0..=u64::MAX))]
     pub(super) seed: Option<u64>,
 
-    /// A view of the scene, by its name [default: its first]
+    /// The name of a view of the scene [default: the first view]
     #[arg(long, value_name = "NAME")]
     pub(super) view: Option<String>,
 
-    /// Exposure: factor on radiance in picture.png, where 1 is white [default: 1]
+    /// Exposure: a factor on radiance; in picture.png, 1 is white [default: 1]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
 
-    /// Lens: its radius and the distance of focus
+    /// The lens of the camera: its radius, and the distance in focus
     #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
     pub(super) lens: Option<Lens>,
 
@@ -133,7 +133,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=65536))]
     pub(super) gather: Option<u32>,
 
-    /// The engine's card draws what the eye sees, from the front, and the engine casts all other rays
+    /// The engine's card draws the front faces that the eye sees, and the engine casts all other rays
     #[arg(long)]
     pub(super) drawn_eyes: bool,
 }

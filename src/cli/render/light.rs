@@ -69,7 +69,7 @@ pub(super) fn run(
     let engine = open.record();
     let numbers = layers(&picture, scene, &camera)?;
     let exposure = args.light.exposure.unwrap_or(1.0);
-    let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
+    let caption = format!("{}, exposure {exposure}, encoded in sRGB", renderer.title());
     let mut findings = page(args, &camera, picture.display(exposure), numbers, &caption);
     findings.table(FoundTable::from(rays(&picture)).unprinted());
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
@@ -143,9 +143,9 @@ fn trace(
         Renderer::Whitted => whitted::render(scene, camera, &settings, caster, watch),
         Renderer::Environment => {
             let executor = args.executor.unwrap_or(Decider::Batch).open()?;
-            let help = "name `--executor scalar`, `batch` or `wgpu`";
+            let help = "use `--executor scalar`, `batch` or `wgpu`";
             let executor = executor.ok_or_else(|| Problem::usage("a card does not draw in exact arithmetic", help))?;
-            let profile = card.ok_or_else(|| Problem::usage("an environment map needs a card", "name a `--device`"))?;
+            let profile = card.ok_or_else(|| Problem::usage("an environment map needs a card", "add a `--device`"))?;
             let card = EnvironmentCard { profile, executor: &executor };
             environment::render(scene, camera, &settings, card, caster, watch)
         }
@@ -181,7 +181,7 @@ pub(super) fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Pictur
     let mut found = Findings::new(format!("A picture of {}", args.scene.display()));
     found.taken_from(camera.world_to_camera());
     found.pictures(vec![NamedPicture::new("picture", image, caption)]);
-    found.paragraph("layers.exr has the numbers: depth along the view (Z) and triangle of what each pixel shows.");
+    found.paragraph("layers.exr has two numbers for each pixel: the depth along the view (Z) and the triangle.");
     found.keep_layers("layers", layers);
     found
 }

@@ -19,9 +19,9 @@ use crate::{
 const EXAMPLES: &str = "\
 Examples:
   crossbar run fixtures/cases/modulate.toml --out out/modulate
-      draws the case, writes its targets there and answers its probes
+      draws the case, writes its targets to out/modulate and checks its probes
   crossbar run fixtures/cases/transform.toml --trace 2,2
-      and shows what every instruction wrote at column 2, row 2
+      also shows what every instruction wrote at column 2, row 2
   crossbar run docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3
       a fragment shader in WGSL, on a single-precision device (needs the feature wgsl)
 
@@ -35,23 +35,23 @@ Exit codes: 0 done, 1 a probe did not find the expected value, 2 the case cannot
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The case, a TOML file; or a shader in WGSL, drawn over 64 x 64 pixels
+    /// The case, a TOML file; or a WGSL shader, which is drawn over 64 x 64 pixels
     #[arg(value_name = "CASE.toml|SHADER.wgsl")]
     case: PathBuf,
 
-    /// A value of a uniform of a shader in WGSL, up to four numbers; may be given several times
+    /// The value of a uniform of a WGSL shader: up to four numbers; may be given several times
     #[arg(long, value_name = "NAME=X,Y,..", value_parser = uniform::parse)]
     uniform: Vec<Uniform>,
 
-    /// Where the pictures go [default: out/ and the case's name]
+    /// Folder for the pictures [default: out/ followed by the case's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Executor; all produce bit-identical results
+    /// Executor; all executors give the same bits
     #[arg(long, value_enum, default_value = "scalar")]
     executor: DeviceExecutor,
 
-    /// Show what every instruction writes at a pixel: column and row from the top left, from 0
+    /// Show what every instruction writes at a pixel: column and row, counted from 0 at the top left
     #[arg(long, value_name = "X,Y", value_parser = pixel::parse, allow_hyphen_values = true)]
     trace: Option<[u32; 2]>,
 }

@@ -16,9 +16,9 @@ impl ShownTrace<'_> {
         let [x, y] = self.0.trace.pixel;
         let text = format!("no triangle of the draw covers pixel {x}, {y}");
         match self.0.trace.nearest {
-            Some([x, y]) => format!("{text}; the nearest that one covers is {x}, {y}"),
+            Some([x, y]) => format!("{text}; the nearest covered pixel is {x}, {y}"),
             None => format!(
-                "{text}, nor any within 16 columns and rows of it; look at the counts of triangles and fragments, \
+                "{text} or any pixel within 16 columns and rows of it; look at the counts of triangles and fragments, \
                  and at `cull` and `convention` of the case"
             ),
         }
@@ -99,7 +99,7 @@ impl ShownTrace<'_> {
     fn result(&self, fragment: &FragmentTrace) -> String {
         let own = fragment.shading.output.depth.map(|depth| {
             let number = Number { format: depth.format, bits: depth.bits };
-            format!("the program decides depth {} ({}); ", number.decimal(), number.hex())
+            format!("the program sets depth to {} ({}); ", number.decimal(), number.hex())
         });
         format!("{}the fragment {}", own.unwrap_or_default(), fate(fragment.shading.fate))
     }

@@ -22,9 +22,9 @@ pub(super) enum LightArg {
 }
 
 const LIGHT: &str = "ambient:R,G,B (radiance), directional:X,Y,Z:R,G,B (towards the light; irradiance) or \
-     point:X,Y,Z:R,G,B[:K0,K1,K2] (place; intensity; attenuation, else 0,0,1), or an environment map: a lat-long, angular-probe, \
-     cube-cross or cube-strip picture, disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun), red-and-blue, \
-     scene:SCENE@X,Y,Z (as seen from a place in a scene)";
+     point:X,Y,Z:R,G,B[:K0,K1,K2] (place; intensity; attenuation, by default 0,0,1), or an environment map: a \
+     lat-long, angular-probe, cube-cross or cube-strip picture, disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], \
+     sky:X,Y,Z (towards the sun), red-and-blue, scene:SCENE@X,Y,Z (as seen from a place in a scene)";
 
 impl FromStr for LightArg {
     type Err = String;
@@ -67,7 +67,7 @@ impl FromStr for LightArg {
 pub(super) fn coefficient(text: &str) -> Result<[f64; 3], String> {
     let one = || text.trim().parse().ok().filter(|value: &f64| value.is_finite()).map(|value| [value; 3]);
     let found = one().or_else(|| three_finite(text)).filter(|values| values.iter().all(|&value| value >= 0.0));
-    found.ok_or_else(|| format!("expected a number of at least 0, or three as R,G,B, per mm, found `{text}`"))
+    found.ok_or_else(|| format!("expected a number per mm of at least 0, or three as R,G,B, found `{text}`"))
 }
 
 /// The requested light; by default, a white light above and beside the eye.
@@ -79,7 +79,7 @@ pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Li
         let of_pass = |light: &LightArg| if let LightArg::OfPass(light) = light { Some(*light) } else { None };
         let lights: Option<Vec<Light>> = asked.iter().map(of_pass).collect();
         return Ok(Lighting::Lights(lights.ok_or_else(|| {
-            let help = "lights of pass 1 may be repeated; an environment map takes their place";
+            let help = "remove the other lights: an environment map replaces all lights of pass 1";
             Problem::usage("expected a single environment map, found another `--light` in addition", help)
         })?));
     }
@@ -90,7 +90,7 @@ pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Li
 
 /// Distant light, sampled at the texels of a cube.
 fn environment(light: &DistantLightArg) -> miette::Result<CubeLight> {
-    let refused = |found: String| Problem::usage(found, "docs/papers/cpca.md says which pictures are lights");
+    let refused = |found: String| Problem::usage(found, "docs/papers/cpca.md describes the pictures of lights");
     let cube = light.distant()?.cube();
     let cube = cube.map_err(|error| refused(error.to_string()))?;
     match cube.texels().iter().flatten().find(|&&radiance| radiance < 0.0) {

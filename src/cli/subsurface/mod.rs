@@ -27,10 +27,12 @@ Examples:
   crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2
       a lamp and a sky
   crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20
-      an environment map with shadows, and marble behind another boundary
+      an environment map with shadows, and marble with another index of refraction
 
-Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of every vertex of the model, in every \
-way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
+Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of \
+every vertex of the model, for every variant), study.json, angles.csv (errors by angle from the light; only with all \
+pairs and a directional light), timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, \
+pictures. docs/papers/subsurface.md explains all of it.";
 
 /// The default index of refraction for coefficients given on the command line.
 const ETA: f64 = 1.3;
@@ -39,7 +41,7 @@ const ETA: f64 = 1.3;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a built-in scene, or a stand-in for a model
     /// of the paper: stanford-bunny, stand-in-dolphin, stand-in-head
     #[arg(value_name = "MODEL")]
     model: PathBuf,
@@ -56,7 +58,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "A", value_parser = coefficient, requires = "sigma_s", allow_hyphen_values = true)]
     sigma_a: Option<[f64; 3]>,
 
-    /// Index of refraction, 1 to 3 [default: the published one; 1.3 with --sigma-s and --sigma-a]
+    /// Index of refraction, 1 to 3 [default: the published index; 1.3 with --sigma-s and --sigma-a]
     #[arg(long, value_name = "N", value_parser = number::finite)]
     eta: Option<f64>,
 
@@ -66,14 +68,14 @@ pub(super) struct Args {
     /// ambient:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated. Or one environment map,
     /// with shadows: a lat-long, angular-probe, cube-cross or cube-strip picture, a table of a cube's texels (.csv) or
     /// of small sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun),
-    /// red-and-blue or scene:SCENE@X,Y,Z (as seen from a place in a scene) [default: from beside the camera]
+    /// red-and-blue or scene:SCENE@X,Y,Z (as seen from a place in a scene) [default: white, from beside the camera]
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Vec<LightArg>,
 
     #[command(flatten)]
     card: CardArgs,
 
-    /// Pixels of the pictures
+    /// Size of the pictures, in pixels
     #[arg(long, value_name = "WxH", default_value = "256x256", allow_hyphen_values = true)]
     size: Size,
 
@@ -147,7 +149,7 @@ impl Args {
             }
             _ => {
                 let help = "add `--material NAME` (see `crossbar materials`), or `--sigma-s` and `--sigma-a` per mm";
-                Err(Problem::usage("expected a medium", help).into())
+                Err(Problem::usage("expected a medium, found none", help).into())
             }
         }
     }

@@ -17,7 +17,7 @@ pub(super) use run::Args;
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let same = |case: &PathBuf, trace: &PathBuf| matches!((case.canonicalize(), trace.canonicalize()), (Ok(a), Ok(b)) if a == b);
     if args.case.as_ref().zip(args.perfetto.as_ref()).is_some_and(|(case, trace)| same(case, trace)) {
-        return Err(Problem::usage("`--perfetto` names the case itself", "name another file").into());
+        return Err(Problem::usage("`--perfetto` would overwrite the case file", "give another file").into());
     }
     let run = CardRun::new(args)?;
     let timed = [TimedLog::new(Level::Rates, &run, args)?, TimedLog::new(Level::Pipeline, &run, args)?];

@@ -22,16 +22,16 @@ use crate::scene::Camera;
 const EXAMPLES: &str = "\
 Examples:
   crossbar timeline fixtures/cases/modulate.toml
-      both models of a case: what each draw costs, what each unit does, the critical path
+      both timing models of a case: what each draw costs, what each unit does, and the critical path
   crossbar timeline --eye-rays 64x64 --device r200 --readback async --double-buffer --perfetto out.json
       the Ray Engine's crossbar on the teapot, as a trace for https://ui.perfetto.dev or chrome://tracing
   crossbar timeline fixtures/cases/modulate.toml --sensitivity
-      and the effect on the total if a guessed figure is halved or doubled
+      also the effect on the total if a guessed figure is halved or doubled
 
-The model `rates` has a fill rate and the rates of the bus (equation 11 of the Ray Engine paper), and commands are \
-free; `pipeline` has clocks of the units, memory traffic, latencies and the cost of a command on the host. Both put \
-the same log on the time axis; the log is the same for every executor. With `--readback async` no read-back is waited \
-for: the result is a lower bound on the time. The trace is that of `pipeline`. docs/timing.md explains all of it.
+The model `rates` has a fill rate and the rates of the bus (equation 11 of the Ray Engine paper); its commands are \
+free. The model `pipeline` has clocks of the units, memory traffic, latencies and the host's cost of a command. Both \
+models time the same log of events, which is the same for every executor. With `--readback async`, the host waits for \
+no read-back, so the time is a lower bound. The trace shows `pipeline`. docs/timing.md explains all of it.
 
 Exit codes: 0 done, 2 the case cannot be run, or the device has no timing.";
 
@@ -43,15 +43,15 @@ pub(in crate::cli) struct Args {
     #[arg(required_unless_present = "eye_rays", conflicts_with = "eye_rays")]
     pub(super) case: Option<PathBuf>,
 
-    /// Instead of a case: the Ray Engine's crossbar on the teapot with this many eye rays, bucket after bucket on one card
+    /// Instead of a case, model the Ray Engine on the teapot with this many eye rays, bucket by bucket on one card
     #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(super) eye_rays: Option<Size>,
 
-    /// The card [default: the case's; r200 for --eye-rays]
+    /// The card [default: the case's device; r200 for --eye-rays]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
-    /// Read-back mode: the host waits, or not [default: the run's]
+    /// Whether the host waits for read-backs [default: as in the run]
     #[arg(long, value_name = "MODE", value_parser = readback())]
     pub(super) readback: Option<ReadBackMode>,
 
@@ -59,7 +59,7 @@ pub(in crate::cli) struct Args {
     #[arg(long)]
     pub(super) double_buffer: bool,
 
-    /// Run the texture cache over every address that the run reads, instead of estimating its misses; slower
+    /// Simulate the texture cache with every address that the run reads, instead of estimating its misses; slower
     #[arg(long)]
     pub(super) cache: bool,
 
@@ -124,7 +124,7 @@ impl CardRun {
                 let title = format!("{}x{} rays on the teapot, {} triangles", rays.width(), rays.height(), mesh.len());
                 Ok(Self { profile, title, rays: Some(rays.rays().len() as u64), log: answer.log })
             }
-            _ => Err(Problem::usage("expected a case or `--eye-rays`", "name one of them").into()),
+            _ => Err(Problem::usage("expected a case or `--eye-rays`", "give one of the two").into()),
         }
     }
 }

@@ -43,8 +43,7 @@ pub(super) fn findings(args: &Args, run: &CardRun, timed: &[TimedLog]) -> Findin
         }
         if one.replay.uncosted > 0 {
             let (name, operations) = (one.name(), one.replay.uncosted);
-            found
-                .print(format!("{name}: {operations} operations of the host cost nothing: no run has calibrated them"));
+            found.print(format!("{name}: {operations} operations of the host cost nothing: they are not calibrated"));
         }
     }
     found.table(FoundTable::from(totals(run, timed)).field("totals"));
@@ -181,7 +180,7 @@ fn units(timed: &TimedLog, written: fn(&Cell) -> String) -> Table {
 
 fn shares(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
-    let mut table = timed.table("critical path, where the time went", &["unit", "with", "pieces", "time", "%"]);
+    let mut table = timed.table("critical path: where the time went", &["unit", "with", "pieces", "time", "%"]);
     for part in timed.replay.timeline.where_the_time_went() {
         table.push([
             part.unit.to_string().into(),
@@ -197,7 +196,7 @@ fn shares(timed: &TimedLog) -> Table {
 fn guesses(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
     let headings = ["guess", "value", "halved", "halved %", "doubled", "doubled %"];
-    let mut table = timed.table("guesses, the total with half and with twice the figure", &headings);
+    let mut table = timed.table("guessed figures: the total with half and with twice the value", &headings);
     for row in &timed.sensitivity {
         let (halved, doubled) = (row.halved, row.doubled);
         table.push([

@@ -152,7 +152,7 @@ fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
         return Err(Problem::usage(what, "docs/scenes.md says how a scene gets lights").into());
     }
     let no_place = |what: String| {
-        Problem::usage(format!("{}: {what}", path.display()), "name a place inside of the scene, in its units")
+        Problem::usage(format!("{}: {what}", path.display()), "give a place inside the scene, in units of the scene")
     };
     // Beyond this bound, single precision does not separate the place from the faces of a cube around it.
     if at.abs().max_element() >= f64::from(1 << 24) {
@@ -182,5 +182,5 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 }
 
 fn no_light(path: &Path, error: &dyn std::fmt::Display) -> Problem {
-    Problem::usage(format!("{}: {error}", path.display()), "docs/papers/cpca.md says which pictures are lights")
+    Problem::usage(format!("{}: {error}", path.display()), "docs/papers/cpca.md describes the pictures of lights")
 }

@@ -25,7 +25,7 @@ pub(in crate::cli) struct ModelArgs {
     #[arg(value_name = "MODEL", help = transfer_model_help())]
     model: PathBuf,
 
-    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
+    /// The source of the tangents of local frames: `any`, `texture` (then the file's materials are not read), or an
     /// axis X,Y,Z
     #[arg(long, value_name = "FROM", default_value = "any", value_parser = tangents, allow_hyphen_values = true)]
     tangents: Tangents,
@@ -75,7 +75,7 @@ pub(in crate::cli) fn model_of(
     crease: Option<f64>,
 ) -> miette::Result<(Model, Vertices, MeshDigest)> {
     let other = |error: InputError| {
-        Problem::usage(error.to_string(), format!("name the model that {} was computed from", path.display()))
+        Problem::usage(error.to_string(), format!("give the model from which {} was computed", path.display()))
     };
     let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
     let (model, vertices) = load(model, tangents, crease, other)?;
@@ -90,7 +90,7 @@ pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, m
     found.fields(json!({ "unused_vertices": vertices.unused, "replaced_tangents": vertices.replaced_tangents }));
     let of_model = [
         (vertices.unused, "vertices of the model belong to no triangle and were left out"),
-        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got an arbitrary one"),
+        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got an arbitrary tangent"),
     ];
     for (count, what) in of_model.iter().chain(more).filter(|(count, _)| *count > 0) {
         found.print(format!("note      {} {what}", counted(*count)));
@@ -104,7 +104,8 @@ pub(in crate::cli) fn note_rays(found: &mut Findings, counts: &VisibilityCounts)
         "unclear_vertices": counts.unclear,
     }));
     let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
-    found.print(format!("rays      {traced} traced; {visible} of {above} directions above the horizon see light"));
+    found
+        .print(format!("rays      {traced} traced; {visible} of {above} directions above the horizon reach the light"));
 }
 
 /// Reason why the transfer of a model cannot be computed.
@@ -121,7 +122,7 @@ pub(in crate::cli) fn materials_of(path: &Path, model: &Model) -> miette::Result
     let [expected, found] = [model.mesh.len(), material_of.len()];
     if expected != found {
         let what = format!("{}: expected {expected} triangles with materials, found {found}", path.display());
-        return Err(Problem::usage(what, "name the model's own file, not a scene").into());
+        return Err(Problem::usage(what, "give the file of the model itself, not a scene").into());
     }
     Ok((materials, material_of))
 }

@@ -19,19 +19,19 @@ pub(in crate::cli) struct PictureArgs {
     #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = LIGHT)]
     pub(in crate::cli) light: DistantLightArg,
 
-    /// The model that the file was made from, as it was given to `precompute`
+    /// The model from which the file was made, as given to `precompute`
     #[arg(long, value_name = "MODEL")]
     pub(in crate::cli) model: PathBuf,
 
-    /// Pixels of the pictures
+    /// Size of the pictures, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// Exposure: factor on radiance in pictures, where 1 is white [default: auto-exposure, the model at 18 % grey on
-    /// average]
+    /// Exposure: a factor on radiance; in pictures, 1 is white [default: automatic, the mean of the model is 18 %
+    /// grey]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     exposure: Option<f64>,
 }

@@ -34,7 +34,7 @@ pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f
         let [face, row, column] = place_of(at);
         let (_, first) = texels[at];
         ensure!(first == 0, "crossbar::cube_map::twice" =>
-            "the texel at face {face}, row {row}, column {column} stands on line {first} too";
+            "the texel at face {face}, row {row}, column {column} is on line {first}, too";
             help "give every texel one line");
         texels[at] = (radiance, line);
         Ok(())
@@ -45,7 +45,7 @@ pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f
         let [face, row, column] = place_of(at);
         return Err(input_error!("crossbar::cube_map::missing" =>
             "expected {expected} texels, {missing} of them are missing, the first at face {face}, row {row}, column \
-             {column}"; help "give every texel one line; black ones too")
+             {column}"; help "give every texel one line, even if it is black")
         .at(name));
     }
     Ok(texels.into_iter().map(|(radiance, _)| radiance).collect())

@@ -18,14 +18,14 @@ pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>, InputEr
 
 pub(super) fn too_long_error(what: &str, path: &Path, limit: u64) -> InputError {
     input_error!("crossbar::file::too_long" =>
-        "expected a {what} of at most {limit} bytes, found more"; help "name a smaller file")
+        "expected a {what} of at most {limit} bytes, found more"; help "use a smaller file")
     .at(path)
 }
 
 pub(super) fn syntax_error(place: impl Into<FilePlace>, expected: impl Display, found: impl Display) -> InputError {
     input_error!("crossbar::model::syntax" =>
         "expected {expected}, found {found}";
-        help "models are Wavefront OBJ, PLY, STL or glTF files: is this one, and is it complete?")
+        help "models are Wavefront OBJ, PLY, STL or glTF files: is this one of them, and is it complete?")
     .at(place)
 }
 
@@ -44,7 +44,7 @@ pub(super) fn element_error(
 
 pub(super) fn part_error(name: &Path, part: impl Display, expected: impl Display, found: impl Display) -> InputError {
     input_error!("crossbar::model::part" =>
-        "{part}: expected {expected}, found {found}"; help "docs/scenes.md says what of glTF is read")
+        "{part}: expected {expected}, found {found}"; help "docs/scenes.md lists the parts of glTF that are read")
     .at(name)
 }
 

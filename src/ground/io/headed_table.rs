@@ -23,7 +23,7 @@ pub(super) fn for_each_row(
         let header = header.join(",");
         return Err(input_error!("crossbar::table::header" =>
             "expected the header `{header}`, found {}", whole(&record);
-            help "a line `{header}`, then a line per {per}")
+            help "write a line `{header}`, then a line per {per}")
         .at(FilePlace::line(name, 1)));
     }
     while reader.read_byte_record(&mut record).map_err(syntax)? {

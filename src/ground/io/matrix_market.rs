@@ -46,7 +46,7 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
     if !matches!(fields[..], ["%%matrixmarket", "matrix", "coordinate", "real" | "double" | "integer", "general"]) {
         return Err(input_error!("crossbar::matrix_market::banner" =>
             "expected `%%MatrixMarket matrix coordinate` with `real` or `integer`, then `general`; found {}",
-            quoted(banner.trim_ascii()); help "write the matrix by all of its entries, in real numbers")
+            quoted(banner.trim_ascii()); help "write all entries of the matrix, as real numbers")
         .at(FilePlace::line(name, 1)));
     }
     // Comments may follow the banner, and empty lines may be anywhere.
@@ -62,7 +62,7 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
         let bytes = bytes.len();
         return Err(input_error!("crossbar::matrix_market::claim" =>
             "expected at most {most} rows and columns in a file of {bytes} bytes, found {rows} x {columns}";
-            help "leave out empty rows and columns: beyond {ANY_SIZE} there may be one per byte of the file")
+            help "remove empty rows and columns: beyond {ANY_SIZE}, a file may have at most one per byte")
         .at(FilePlace::line(name, size_line)));
     }
     // Memory is allocated only in proportion to the file's bytes.
@@ -72,14 +72,14 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
     }
     if entries.len() != count {
         return Err(input_error!("crossbar::matrix_market::count" =>
-            "expected {count} entries as line {size_line} says, found {}", entries.len(); help "is the file cut?")
+            "expected {count} entries as line {size_line} says, found {}", entries.len(); help "is the file truncated?")
         .at(name));
     }
     entries.sort_unstable_by_key(|&(row, column, _)| (row, column));
     if let Some(pair) = entries.windows(2).find(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
         return Err(input_error!("crossbar::matrix_market::twice" =>
             "expected one entry for row {}, column {}, found two", pair[0].0 + 1, pair[0].1 + 1;
-            help "add the entries up, or leave one out")
+            help "add the two entries, or remove one of them")
         .at(name));
     }
     Ok(CoordinateMatrix { rows, columns, entries })

@@ -12,22 +12,22 @@ pub enum ModelNote {
     #[error("{place}: material {material}: `Kd` and `Ks` scaled by 1 / {sum}, to reflect at most all light")]
     Scaled { place: FilePlace, material: String, sum: f32 },
     /// Transparency of a material that is not glass was ignored.
-    #[error("{place}: material {material}: taken as opaque; only glass (`illum 6`) lets {passes} pass")]
+    #[error("{place}: material {material}: read as opaque; only glass (`illum 6`) lets {passes} pass")]
     Opaque { place: FilePlace, material: String, passes: f32 },
     /// A glossy material without an exponent above 0 got the default exponent.
-    #[error("{place}: material {material}: `Ns 0` taken as {exponent}, the widest lobe")]
+    #[error("{place}: material {material}: `Ns 0` read as {exponent}, the widest lobe")]
     Exponent { place: FilePlace, material: String, exponent: f32 },
     /// No library has a material; its faces are grey.
-    #[error("{place}: material {material}: in no library, taken as grey")]
+    #[error("{place}: material {material}: in no library, read as grey")]
     Unknown { place: FilePlace, material: String },
     /// Faces of four corners or more that have no certain interior.
     #[error("{} {fault}: {}; first: {first}", counted(.faces, "face"), cut(.fault))]
     Polygons { fault: PolygonFault, faces: usize, first: String },
     /// Data after the last triangle or element of a file.
-    #[error("{} after the last {last}: passed over", counted(.bytes, "byte"))]
+    #[error("{} after the last {last}: ignored", counted(.bytes, "byte"))]
     Trailing { bytes: usize, last: &'static str },
     /// Triangles with winding opposite to their neighbours' were flipped.
-    #[error("{} turned round, to face as the triangles beside", counted(.triangles, "triangle"))]
+    #[error("{} flipped, to face like the neighbours", counted(.triangles, "triangle"))]
     TurnedRound { triangles: usize },
     /// Triangles without area.
     #[error("{} without area: never hit", counted(.triangles, "triangle"))]

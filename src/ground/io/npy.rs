@@ -137,7 +137,7 @@ fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), Input
     };
     let cut = |what, expected, found| {
         input_error!("crossbar::npy::truncated" =>
-            "expected {expected} bytes of {what}, found {found}"; help "the file is cut; write it again")
+            "expected {expected} bytes of {what}, found {found}"; help "the file is truncated; write it again")
         .at(name)
     };
     let [major, _minor, rest @ ..] = rest else { return Err(cut("its version", 2, rest.len())) };

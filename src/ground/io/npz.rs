@@ -43,7 +43,7 @@ impl<'a> NpzReader<'a> {
         // Bytes shared by many members would be read once per member.
         let overlap = zip.has_overlapping_entries().map_err(|error| refused(error.to_string()))?;
         if overlap || zip.has_duplicate_names() {
-            return Err(refused("expected members apart from each other, found one twice".to_owned()));
+            return Err(refused("expected members that do not share names or bytes, found two that do".to_owned()));
         }
         let mut arrays = BTreeMap::new();
         for index in 0..zip.len() {
@@ -125,7 +125,7 @@ impl<'a> NpzReader<'a> {
     /// Checks that no array is left.
     pub fn finish(self) -> Result<(), InputError> {
         match self.arrays.keys().next() {
-            Some(left) => Err(self.refuse("arrays", "no others", quoted(left.as_bytes()))),
+            Some(left) => Err(self.refuse("arrays", "no other arrays", quoted(left.as_bytes()))),
             None => Ok(()),
         }
     }

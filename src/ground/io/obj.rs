@@ -123,7 +123,7 @@ impl ObjReader {
         if let &[_, _, _, weight] = numbers
             && self.number(line, weight)? != 1.0
         {
-            return Err(self.syntax(line, "a vertex without a weight other than 1", weight));
+            return Err(self.syntax(line, "a vertex without a weight, or with weight 1", weight));
         }
         self.positions.push(position);
         Ok(())
@@ -266,7 +266,7 @@ impl ObjReader {
         let (place, count) = (FilePlace::line(&self.name, line), self.count(target));
         input_error!("crossbar::model::index" =>
             "{} {index}, expected 1 to {count} (or -1 to -{count})", TARGETS[target];
-            help "faces count from 1, or from -1 backwards: is a part of the file missing?")
+            help "faces count from 1, or backwards from -1: is a part of the file missing?")
         .at(place)
     }
 }

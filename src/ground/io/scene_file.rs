@@ -71,7 +71,7 @@ pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<Model
     let text = text.ok_or_else(|| {
         input_error!("crossbar::scene::text" =>
             "expected a scene file of at most {LONGEST} bytes of UTF-8";
-            help "a scene file is TOML that names its mesh: docs/scenes.md")
+            help "a scene file is TOML with the name of its mesh: docs/scenes.md")
         .at(path)
     })?;
     let (mesh, views, point_lights) = parse(&text, path)?;
@@ -94,12 +94,12 @@ pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLi
     for (at, view) in file.view.iter().enumerate() {
         if file.view[..at].iter().any(|known| known.name == view.name) {
             return Err(input_error!("crossbar::scene::same_name" =>
-                "expected views of different names, found {:?} twice", view.name; help "rename one of the two")
+                "expected views with different names, found {:?} twice", view.name; help "rename one of the two")
             .at(name));
         }
         if let Err(reason) = view.camera(1, 1) {
             return Err(input_error!("crossbar::scene::view" =>
-                "view {:?}: {reason}", view.name; help "a view needs an eye apart from its target, and another way up")
+                "view {:?}: {reason}", view.name; help "a view needs an eye away from its target, and another `up`")
             .at(name));
         }
     }

@@ -9,7 +9,7 @@ use crate::error::{InputError, input_error};
 const MAX_ITERATIONS: usize = 100;
 
 pub(super) fn not_finite_error(found: usize) -> InputError {
-    input_error!("expected finite elements, found {found} that are not")
+    input_error!("expected finite elements, found {found} that are not finite")
 }
 
 pub(super) fn no_convergence_error(rows: usize, columns: usize) -> InputError {

@@ -62,6 +62,6 @@ pub(super) fn require_length(
 ) -> Result<(), InputError> {
     ensure!(found as u64 >= least, "crossbar::picture::claim" =>
         "expected at least {least} bytes of a {format} file for the {width}x{height} pixels that its header says, found \
-         {found}: is it cut?");
+         {found}: is it truncated?");
     Ok(())
 }

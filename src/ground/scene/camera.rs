@@ -34,8 +34,8 @@ pub struct Camera {
 
 fn flat_error() -> InputError {
     input_error!(
-        "eye, target and up define no picture plane: expected a target other than the eye, and an up not \
-         along the view"
+        "eye, target and up define no picture plane: expected a target away from the eye, and an up \
+         vector not along the view"
     )
 }
 

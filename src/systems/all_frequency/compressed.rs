@@ -96,7 +96,7 @@ impl CompressedTransfer {
             let within = part.vertices.last().is_none_or(|&last| (last as usize) < vertices);
             ensure!(
                 part.vertices.len() == points && increasing && within,
-                "segment {segment}: expected {points} vertices below {vertices} in increasing order, found others"
+                "segment {segment}: expected {points} vertices below {vertices} in increasing order, found another list"
             );
             let zero = |value: &f64| *value == 0.0;
             ensure!(

@@ -138,7 +138,7 @@ const fn visibility_shape(vertices: usize) -> [usize; 4] {
 
 fn visibility(arrays: &mut NpzReader<'_>, vertices: usize) -> Result<VisibilityMaps, InputError> {
     let words = arrays.words("visibility", &visibility_shape(vertices))?;
-    VisibilityMaps::from_words(words).ok_or_else(|| arrays.refuse("visibility", "whole maps", "others"))
+    VisibilityMaps::from_words(words).ok_or_else(|| arrays.refuse("visibility", "whole maps", "incomplete maps"))
 }
 
 fn coded(
@@ -185,8 +185,8 @@ fn coded(
         })
     };
     let segments: Option<Vec<CodedSegment>> = sizes.iter().zip(rows).map(segment).collect();
-    let segments =
-        segments.ok_or_else(|| arrays.refuse("representatives", "numbers other than 0 in order of rows", "others"))?;
+    let segments = segments
+        .ok_or_else(|| arrays.refuse("representatives", "numbers other than 0 in order of rows", "other numbers"))?;
     Ok(CodedTransfer { rows: terms, coefficients: COEFFICIENTS, vertices, options, segments })
 }
 

@@ -44,7 +44,7 @@ impl LowFrequencyTransfer {
         let expected = frames.len() * local_count;
         ensure!(
             matrix.rows() == expected,
-            "expected {expected} rows, one per vertex and local direction, found {}: name the model of the file",
+            "expected {expected} rows, one per vertex and local direction, found {}: give the model of the file",
             matrix.rows()
         );
         let functions = TexelHarmonics::new(order)?;

@@ -60,8 +60,8 @@ impl SparseMatrix {
         }
         let Some(fraction_bits) = unit_of(matrix.entries.iter().map(|&(.., value)| value)) else {
             return Err(input_error!(
-                "expected multiples of one power of two of at least 2^-{MOST_FRACTION_BITS}, each within 32 bits, found \
-                 other numbers"
+                "expected multiples of a single power of two (2^-{MOST_FRACTION_BITS} or larger) by 32-bit factors, \
+                 found other numbers"
             ));
         };
         let mut sparse = Self::new(matrix.columns, fraction_bits)?;

@@ -97,7 +97,7 @@ pub struct Clustering {
 }
 
 fn not_finite_error(what: &'static str, index: usize) -> InputError {
-    input_error!("expected finite numbers, found others in {what} {index}")
+    input_error!("expected finite numbers, found other numbers in {what} {index}")
 }
 
 impl Clustering {
@@ -209,20 +209,20 @@ fn check_subspace(cluster: usize, subspace: &AffineSubspace, dimension: usize) -
     ensure!(
         mean.len() == dimension && Some(vectors.len()) == eigenvalues.len().checked_mul(dimension),
         "expected a mean of {dimension} numbers and as many per eigenvalue in cluster {cluster}, \
-         found others"
+         found other counts"
     );
     if !mean.iter().chain(vectors).chain(eigenvalues).all(|value| value.is_finite()) {
         return Err(not_finite_error("cluster", cluster));
     }
     ensure!(
         eigenvalues.iter().chain(&[0.0]).is_sorted_by(|a, b| a >= b),
-        "expected eigenvalues of at least 0 in decreasing order in cluster {cluster}, found others"
+        "expected eigenvalues of at least 0 in decreasing order in cluster {cluster}, found other eigenvalues"
     );
     for (i, a) in subspace.vectors().enumerate() {
         let wrong = |(j, b)| (dot(a, b) - f64::from(u8::from(i == j))).abs() > ORTHONORMAL;
         ensure!(
             !subspace.vectors().enumerate().take(i + 1).any(wrong),
-            "expected orthonormal vectors in cluster {cluster}, found others"
+            "expected orthonormal vectors in cluster {cluster}, found other vectors"
         );
     }
     Ok(())

@@ -49,11 +49,11 @@ pub enum CpcaMethod {
     ///
     /// Section 4.2.
     Iterative,
-    /// The same error, while the number of vectors is doubled: 1, 2, 4 and so on up to the requested number.
+    /// Like iterative, but the number of vectors is doubled: 1, 2, 4 and so on up to the requested number.
     ///
     /// Not in the papers; for signals with thousands of dimensions, where it saves most of the time.
     Doubling,
-    /// As iterative, followed by redistribution of vectors among the clusters.
+    /// Like iterative, followed by redistribution of vectors among the clusters.
     ///
     /// Section 4.3.
     Adaptive {

@@ -17,7 +17,7 @@ pub(super) const MAX_TRIANGLES: usize = 1 << 24;
 pub enum EngineError {
     /// The device runs none of the shader versions that the intersection programs are written in.
     #[error("device `{device}` runs no intersection program: expected ps_1_4 or ps_2_0")]
-    #[diagnostic(code(ray_engine::no_kernel), help("take r200, r300, r350, nv30, nv35 or ideal-<format>"))]
+    #[diagnostic(code(ray_engine::no_kernel), help("use r200, r300, r350, nv30, nv35 or ideal-<format>"))]
     NoKernel { device: String },
     /// Seven vectors and the coordinates of a texture do not fit into the six coordinate sets of ps_1_4.
     #[error(
@@ -25,14 +25,14 @@ pub enum EngineError {
     )]
     #[diagnostic(
         code(ray_engine::no_shared_edges),
-        help("give the rays one origin, or take a device with ps_2_0: r300, r350, nv30, nv35")
+        help("give the rays one origin, or use a device with ps_2_0: r300, r350, nv30, nv35")
     )]
     NoSharedEdges { device: String },
     /// The only program for rays stored as bytes is a ps_1_4 program for front faces.
-    #[error("device `{device}` has no program for rays in bytes that meet these faces")]
+    #[error("device `{device}` has no program for rays stored as bytes and for these faces")]
     #[diagnostic(
         code(ray_engine::no_byte_rays),
-        help("take a device with ps_1_4 and fixed point, such as r200, and front faces")
+        help("use front faces, and a device with ps_1_4 and fixed point such as r200")
     )]
     NoByteRays { device: String },
     /// The device rejects a program.

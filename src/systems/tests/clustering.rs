@@ -193,18 +193,21 @@ fn parts_that_do_not_go_together_are_refused() {
     );
     assert_eq!(new(&same, vec![1], vec![1.0]).to_string(), "expected a cluster below 1 for point 0, found 1");
     assert_eq!(new(&same, vec![0], vec![]).to_string(), "expected 1 weights, found 0");
-    assert_eq!(new(&same, vec![0], vec![f64::NAN]).to_string(), "expected finite numbers, found others in weight 0");
+    assert_eq!(
+        new(&same, vec![0], vec![f64::NAN]).to_string(),
+        "expected finite numbers, found other numbers in weight 0"
+    );
     let broken = |change: &dyn Fn(&mut AffineSubspace)| new(change, vec![0], vec![1.0]).to_string();
     assert_eq!(
         broken(&|s| s.vectors.push(0.0)),
-        "expected a mean of 2 numbers and as many per eigenvalue in cluster 0, found others"
+        "expected a mean of 2 numbers and as many per eigenvalue in cluster 0, found other counts"
     );
-    assert_eq!(broken(&|s| s.vectors[0] = 0.7), "expected orthonormal vectors in cluster 0, found others");
+    assert_eq!(broken(&|s| s.vectors[0] = 0.7), "expected orthonormal vectors in cluster 0, found other vectors");
     assert_eq!(
         broken(&|s| s.eigenvalues[0] = -1.0),
-        "expected eigenvalues of at least 0 in decreasing order in cluster 0, found others"
+        "expected eigenvalues of at least 0 in decreasing order in cluster 0, found other eigenvalues"
     );
-    assert_eq!(broken(&|s| s.mean[0] = f64::INFINITY), "expected finite numbers, found others in cluster 0");
+    assert_eq!(broken(&|s| s.mean[0] = f64::INFINITY), "expected finite numbers, found other numbers in cluster 0");
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub fn load_signal(path: &Path) -> Result<(PrtMeaning, Option<MeshDigest>, Signa
         let PrtFile { meaning, mesh, transfer, .. } = parse_prt(&bytes, path)?;
         let signal = transfer.ok_or_else(|| {
             input_error!("crossbar::signal::compressed" =>
-                "expected transfer, found clusters only"; help "name the file that it was compressed from")
+                "expected transfer, found clusters only"; help "give the file from which it was compressed")
             .at(path)
         })?;
         return Ok((meaning, mesh, signal));

@@ -100,7 +100,7 @@ impl Vertices {
         let texture = match tangents {
             Tangents::Texture => Some(mesh.texcoords().ok_or_else(|| {
                 input_error!("crossbar::prt::precompute" =>
-                    "the mesh has no texture coordinates to take tangents from"; help "name an axis for the tangents")
+                    "the mesh has no texture coordinates to take tangents from"; help "give an axis for the tangents")
             })?),
             Tangents::Any => None,
             Tangents::Along(axis) if unit(axis).is_some() => None,
@@ -233,8 +233,8 @@ fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, InputError> {
         false => Ok(DVec3::ZERO),
         true => given(vertex).or_else(|| around(vertex)).ok_or_else(|| {
             input_error!("crossbar::prt::precompute" =>
-                "vertex {vertex} (counted from 0) has no normal: none is given, and its triangles have no area or \
-                 cancel out; remove them or give a normal")
+                "vertex {vertex} (counted from 0) has no normal: the model gives it none, and its triangles \
+                 have no area or cancel out; remove them, or give a normal")
         }),
     };
     used(mesh).into_iter().enumerate().map(normal).collect()

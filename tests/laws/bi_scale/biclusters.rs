@@ -122,5 +122,5 @@ fn residuals_beyond_32_bits_are_refused() {
     let mut rows = vec![vec![i32::MIN, 1, 1, 1, 1, 1]; 7];
     rows[0][0] = 0;
     let error = bicluster(&matrix(&rows, 2), SEED, &mut |_| ()).expect_err("2^31 units").to_string();
-    assert_eq!(error, "expected residuals that 32 bits of units hold, found others");
+    assert_eq!(error, "expected residuals that fit into 32 bits, found larger residuals");
 }

@@ -88,7 +88,7 @@ fn every_encoding_gives_the_same_mesh() {
         std::fs::write(&path, longer).expect("written");
         let (read, notes) = load_mesh_with(&path, ModelOptions::default()).expect("a mesh");
         assert_eq!(read.len(), mesh.len());
-        assert_eq!(notes[0].to_string(), "7 bytes after the last element: passed over");
+        assert_eq!(notes[0].to_string(), "7 bytes after the last element: ignored");
     }
 }
 

@@ -160,7 +160,7 @@ fn materials_of_modellers_are_scaled_and_noted() {
         ),
         (
             "newmtl a\nKd 0.8 0.4 0.2\nd 0.5\nillum 1\n",
-            "taken as opaque; only glass (`illum 6`) lets 0.5 pass",
+            "read as opaque; only glass (`illum 6`) lets 0.5 pass",
             Surface::Diffuse { albedo: [0.8, 0.4, 0.2] },
         ),
         (
@@ -170,7 +170,7 @@ fn materials_of_modellers_are_scaled_and_noted() {
         ),
         (
             "newmtl a\nNs 0\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nillum 2\n",
-            "`Ns 0` taken as 1, the widest lobe",
+            "`Ns 0` read as 1, the widest lobe",
             Surface::Glossy { albedo: [0.5; 3], specular: [0.5; 3], exponent: 1.0 },
         ),
     ] {
@@ -222,7 +222,7 @@ fn odd_models_are_mended_and_counted() {
     assert_eq!(
         said,
         [
-            "1 triangle turned round, to face as the triangles beside",
+            "1 triangle flipped, to face like the neighbours",
             "2 triangles without area: never hit",
             "1 edge of three triangles or more"
         ]
@@ -270,12 +270,12 @@ fn names_run_to_the_end_of_their_line() {
     let (found, notes) = albedos(&names, "a.mtl my b.mtl # both");
     let (red, blue) = ([0.3, 0.0, 0.0], [0.0, 0.0, 0.4]);
     assert_eq!(found, [[0.1; 3], [0.2; 3], red, blue, [0.5; 3]]);
-    let unknown = format!("{}:13: material blue # sky: in no library, taken as grey", model.display());
+    let unknown = format!("{}:13: material blue # sky: in no library, read as grey", model.display());
     assert_eq!(notes.iter().map(ToString::to_string).collect::<Vec<_>>()[0], unknown);
     let refused = load_scene_with(&model, ModelOptions { strict: true, up: None }).expect_err("unknown").to_string();
     assert!(
         refused
-            .ends_with("m.obj:13: material blue # sky: expected a material of its libraries, found none of this name"),
+            .ends_with("m.obj:13: material blue # sky: expected a material of its libraries, found no such material"),
         "{refused}"
     );
     // Whether a line with spaces names one file or several is a guess.

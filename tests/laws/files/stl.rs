@@ -63,10 +63,7 @@ fn stl_is_found_by_ending_and_content() {
     std::fs::write(&longer, [binary(b"", 2), b"more".to_vec()].concat()).expect("written");
     let (mesh, notes) = load_mesh_with(&longer, ModelOptions::default()).expect("a mesh");
     assert_eq!(mesh.iter_corners().collect::<Vec<_>>(), CORNERS);
-    assert_eq!(
-        notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        ["4 bytes after the last triangle: passed over"]
-    );
+    assert_eq!(notes.iter().map(ToString::to_string).collect::<Vec<_>>(), ["4 bytes after the last triangle: ignored"]);
     let models = file("fixtures/models");
     let square = load_mesh(&models.join("square.stl")).expect("a mesh");
     assert_eq!(square, load_mesh(&models.join("square.obj")).expect("a mesh"));

@@ -171,7 +171,7 @@ fn more_direct_lights_than_a_program_takes_are_refused() {
         card.view_texels(&view).expect("a picture");
         card.light(&vec![light; most + 1]).expect("light");
         let refused = card.view_texels(&view).expect_err("too many").to_string();
-        assert!(refused.ends_with(&format!("takes at most {most}")), "{refused}");
+        assert!(refused.ends_with(&format!("supports at most {most}")), "{refused}");
     }
     let bad = View::scattered(MeshView { exposure: f64::NAN, ..cameras()[0].into() });
     assert!(card.view_texels(&bad).is_err(), "no exposure");

@@ -66,13 +66,13 @@ impl Geometry {
         }
         for count in [normals.as_ref().map(Vec::len), texcoords.as_ref().map(Vec::len)].into_iter().flatten() {
             if count != vertices {
-                return Err(wrong("attributes of as many elements as `POSITION`", count.to_string()));
+                return Err(wrong("attributes with as many elements as `POSITION`", count.to_string()));
             }
         }
         self.corners += indices.len();
         if self.positions.len() + vertices > MAX_VERTICES || self.corners > MAX_ELEMENTS {
             let found = format!("{} and {}", self.positions.len() + vertices, self.corners);
-            return Err(wrong("at most 16777216 vertices and 67108864 corners, copies counted", found));
+            return Err(wrong("at most 16777216 vertices and 67108864 corners, counting copies", found));
         }
         let first = self.positions.len() as u32;
         self.some_without[0] |= normals.is_none();

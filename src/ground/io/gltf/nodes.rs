@@ -25,9 +25,9 @@ pub(super) fn instances<'a>(document: &'a Document, name: &Path) -> Result<Vec<I
     let (mut seen, mut found) = (vec![false; document.nodes().len()], Vec::new());
     while let Some((node, parent)) = open.pop() {
         if std::mem::replace(&mut seen[node.index()], true) {
-            return Err(wrong(&node, "one parent at most, and no node within itself", "a second way to it"));
+            return Err(wrong(&node, "at most one parent, and no cycle", "a second path to it"));
         }
-        let local = local(&node).ok_or_else(|| wrong(&node, "a rotation of length 1", "one of no length"))?;
+        let local = local(&node).ok_or_else(|| wrong(&node, "a rotation of length 1", "a rotation of length 0"))?;
         let to_scene = parent * local;
         if let Some(mesh) = node.mesh() {
             let weights = node.weights().or(mesh.weights()).unwrap_or_default();

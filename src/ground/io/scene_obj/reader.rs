@@ -64,7 +64,7 @@ impl SceneReader {
         let corners = self.geometry.faces().last();
         let with_normals = corners.iter().filter(|corner| corner[2] > 0).count();
         if with_normals != 0 && with_normals != corners.len() {
-            return Err(self.geometry.syntax(line, "normals at all corners of a face, or at none", text));
+            return Err(self.geometry.syntax(line, "normals at all corners of a face, or at no corner", text));
         }
         self.material_of.push(self.current);
         Ok(())
@@ -102,7 +102,7 @@ impl SceneReader {
                 let place = FilePlace::line(&self.name, line);
                 input_error!("crossbar::model::library" =>
                     "cannot read the material library {}", path.display();
-                    help "put it beside the model, or take the line out")
+                    help "put it beside the model, or remove the line")
                 .with_source(source)
                 .at(place)
             })?;
@@ -141,7 +141,7 @@ impl SceneReader {
                     if let (None, Some(line)) = (found, line) {
                         let (place, material) = (FilePlace::line(&name, line), material.to_owned());
                         let Some(notes) = &mut notes else {
-                            let (expected, found) = ("a material of its libraries", "none of this name".to_owned());
+                            let (expected, found) = ("a material of its libraries", "no such material".to_owned());
                             return Err(material_error(place, material, expected, found));
                         };
                         notes.push(ModelNote::Unknown { place, material });

@@ -84,7 +84,7 @@ fn check_names(materials: &[Material]) -> io::Result<()> {
         let is_line = name.trim_ascii() == name && !name.contains(char::is_control) && !name.ends_with('\\');
         let plain = !name.is_empty() && is_line;
         if !plain || !seen.insert(name) {
-            let problem = format!("expected names of materials that a line can end with, each once, found {name:?}");
+            let problem = format!("expected different names of materials that can end a line, found {name:?}");
             return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         }
     }

@@ -39,11 +39,11 @@ const SCENES: &[(&str, &str, SceneSource)] = &[
     ),
     (
         "cornell-room-blocks",
-        "the same with its two blocks",
+        "the closed Cornell box with its two blocks",
         SceneSource::Room(CornellBox { blocks: true, open: false }),
     ),
     ("harbour", "a boat in wavy water that reflects: Figure 1 of the Ray Engine", files!("harbour")),
-    ("office", "an office with eight desks and much on them: Figure 6 c of the Ray Engine", files!("office")),
+    ("office", "an office with eight desks and many objects on them: Figure 6 c of the Ray Engine", files!("office")),
     (
         "office-floor",
         "one floor of an office building without its ceiling: Figure 6 d and e of the Ray Engine",

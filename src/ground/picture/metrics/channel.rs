@@ -8,7 +8,7 @@ use crate::error::{InputError, ensure, input_error};
 fn channels_error(left: String, right: String) -> InputError {
     input_error!("crossbar::picture::mismatch" =>
         "expected the same channels in both pictures, found {left} and {right}";
-        help "name those that both have with `--channel`")
+        help "choose channels that both have with `--channel`")
 }
 
 /// Position and values of the largest difference between two channels.
@@ -98,7 +98,7 @@ impl ChannelPair<'_> {
 fn pairs<'a>(left: &'a Picture, right: &'a Picture, names: &[String]) -> Result<Vec<ChannelPair<'a>>, InputError> {
     let [here, there] = [left, right].map(|picture| [picture.width(), picture.height()]);
     ensure!(here == there, "crossbar::picture::mismatch" =>
-        "expected two pictures of one size, found {}x{} and {}x{}", here[0], here[1], there[0], there[1]);
+        "expected two pictures of the same size, found {}x{} and {}x{}", here[0], here[1], there[0], there[1]);
     let list = |picture: &Picture| {
         picture.channels().iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ")
     };
@@ -115,7 +115,7 @@ fn pairs<'a>(left: &'a Picture, right: &'a Picture, names: &[String]) -> Result<
             if matches!(left.samples, Samples::Uint(_)) != matches!(right.samples, Samples::Uint(_)) =>
         {
             Err(input_error!("crossbar::picture::mismatch" =>
-                    "expected samples of one type in channel `{name}`, found floats and whole numbers"))
+                    "expected samples of the same type in channel `{name}`, found floats and whole numbers"))
         }
         (Some(left), Some(right)) => Ok(ChannelPair { left, right }),
         _ if names.is_empty() => Err(channels_error(list(left), list(right))),

@@ -26,7 +26,7 @@ fn bad_tables_are_named() {
     {
         assert!(error(line).starts_with("l.csv:7: expected "), "{}", error(line));
     }
-    assert_eq!(error("1,0,0,1,1,1"), "l.csv:7: the texel at face 1, row 0, column 0 stands on line 2 too");
+    assert_eq!(error("1,0,0,1,1,1"), "l.csv:7: the texel at face 1, row 0, column 0 is on line 2, too");
     let missing = "l.csv: expected 6 texels, 1 of them are missing, the first at face 0, row 0, column 0";
     assert_eq!(error(""), missing);
 }

@@ -71,5 +71,8 @@ fn any_magnitude_is_taken_and_no_number_refused() {
         assert_abs_diff_eq!(all.values[0] / scale, leading.values[0] / scale, epsilon = 1e-12);
     }
     let nan = matrix(3, |i, j| if i == 2 && j == 1 { f64::NAN } else { 1.0 });
-    assert_eq!(LeadingEigen::new(&nan, 1).unwrap_err().to_string(), "expected finite elements, found 1 that are not");
+    assert_eq!(
+        LeadingEigen::new(&nan, 1).unwrap_err().to_string(),
+        "expected finite elements, found 1 that are not finite"
+    );
 }

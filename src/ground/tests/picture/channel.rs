@@ -34,8 +34,8 @@ fn channels_go_by_name_and_have_to_be_the_same() {
     for (left, right, names, said) in [
         (&rgb, &other, vec![], "expected the same channels in both pictures, found "),
         (&rgb, &rgb, vec!["Z".to_owned()], "expected a channel `Z` in both pictures, found "),
-        (&rgb, &Picture::rgb(2, 1, &[]), vec![], "expected two pictures of one size, found "),
-        (&ids, &other, vec![], "expected samples of one type in channel `Y`, found floats and whole numbers"),
+        (&rgb, &Picture::rgb(2, 1, &[]), vec![], "expected two pictures of the same size, found "),
+        (&ids, &other, vec![], "expected samples of the same type in channel `Y`, found floats and whole numbers"),
     ] {
         assert!(channels(left, right, &names).is_err_and(|error| error.to_string().starts_with(said)), "{said}");
     }

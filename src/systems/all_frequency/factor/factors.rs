@@ -129,7 +129,7 @@ impl Factorization {
     pub fn new(table: &ProductTable, terms: usize) -> Result<Self, InputError> {
         let found = Self::up_to(table, terms)?;
         ensure!((1..=found.rank()).contains(&terms), "crossbar::factor::terms" =>
-            "expected 1 to {} terms, the rank of the table, found {terms}", found.rank(); help "ask for fewer terms");
+            "expected 1 to {} terms, the rank of the table, found {terms}", found.rank(); help "use fewer terms");
         Ok(found)
     }
 

@@ -23,7 +23,7 @@ pub enum Denominators {
     /// 1 / (4 pi v_z s_z): facets conserve energy; Schlick 1994, and Cook and Torrance's model in textbooks.
     #[default]
     Normalised,
-    /// 1 / (pi v_z s_z), as Cook and Torrance 1982 print it: four times the above.
+    /// 1 / (pi v_z s_z), as Cook and Torrance 1982 print it: four times `normalised`.
     #[strum(to_string = "printed-1982")]
     Printed1982,
     /// 1: without pi and cosines.
@@ -48,10 +48,10 @@ pub enum FresnelForm {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum Shadowing {
-    /// That of the model: V-grooves for Cook and Torrance, G(v) G(v') for Schlick.
+    /// The shadowing of the model: V-grooves for Cook and Torrance, G(v) G(v') for Schlick.
     #[default]
     Model,
-    /// None.
+    /// No shadowing and no masking.
     None,
 }
 

@@ -120,13 +120,13 @@ impl ProductOptions {
             true if !profile.limits.float_mipmaps => {
                 return refused(format!(
                     "`{device}` has {format} textures as rectangles only (limits.float_mipmaps), which ps_2_0 cannot \
-                     address; hold G in signed fractions"
+                     address; store G in signed fractions"
                 ));
             }
             true if !by_program && !profile.limits.float_filtering => {
                 return refused(format!(
-                    "`{device}` filters no {format} textures (limits.float_filtering); filter by the program, or hold \
-                     G in signed fractions"
+                    "`{device}` does not filter {format} textures (limits.float_filtering); filter in the program, or \
+                     store G in signed fractions"
                 ));
             }
             _ => {}
@@ -137,7 +137,7 @@ impl ProductOptions {
             let (channels, view, needed) = (layout.channels, layout.view.count(), layout.sets());
             return refused(format!(
                 "{terms} terms of {channels} channels and {view} numbers of the view need {needed} sets of texture \
-                 coordinates; `{device}` has {found} (limits.texture_coordinates); draw a channel per pass, or take \
+                 coordinates; `{device}` has {found} (limits.texture_coordinates); draw one channel per pass, or use \
                  fewer terms"
             ));
         }

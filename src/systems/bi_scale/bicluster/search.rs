@@ -22,7 +22,7 @@ pub fn bicluster(matrix: &SparseMatrix, seed: u64, found: &mut dyn FnMut(u64)) -
     let nonzeros = matrix.nonzeros() as u64;
     ensure!(u32::try_from(nonzeros).is_ok(), "expected at most {} non-zeros, found {nonzeros}", u32::MAX);
     let biclustering = Search::new(matrix.to_rows(), matrix.columns(), seed).run(matrix, found);
-    biclustering.ok_or_else(|| input_error!("expected residuals that 32 bits of units hold, found others"))
+    biclustering.ok_or_else(|| input_error!("expected residuals that fit into 32 bits, found larger residuals"))
 }
 
 /// State of the lines of one direction: rows or columns.

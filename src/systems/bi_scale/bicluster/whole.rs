@@ -149,8 +149,8 @@ impl Biclustering {
                     Ok(value) => entries.push(MatrixEntry { index, value }),
                     Err(_) => {
                         return Err(input_error!(
-                            "expected a sum that 32 bits of units hold in row {row}, column {index} (counted from 0), \
-                             found another: the biclusters are of no matrix"
+                            "expected a sum that fits into 32 bits in row {row}, column {index} (counted from 0), \
+                             found another: the biclusters belong to no matrix"
                         ));
                     }
                 }

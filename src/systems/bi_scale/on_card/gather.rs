@@ -160,7 +160,7 @@ impl GatherCard {
         CardError::check_size("numbers of light", self.columns, light.len())?;
         let is_good = |value: &&f32| value.is_finite() && (**value >= 0.0 || self.format != LightFormat::Bytes);
         if let Some(&found) = light.as_flattened().iter().find(|value| !is_good(value)) {
-            let what = "light of finite numbers, of 0 or more in bytes";
+            let what = "finite light, of 0 or more if it is stored in bytes";
             return Err(CardError::figure(what, f64::from(found)));
         }
         let largest = light.as_flattened().iter().fold(0.0_f32, |most, value| most.max(value.abs()));

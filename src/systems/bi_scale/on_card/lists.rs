@@ -76,7 +76,7 @@ impl Lists {
         if width > limits.side {
             return Err(CardError::input(format!(
                 "{count} {what} need a texture of {width} x {height} texels; `{}` has textures of {} per side \
-                 (limits.max_texture_size); take fewer",
+                 (limits.max_texture_size); use fewer",
                 limits.device, limits.side
             )));
         }

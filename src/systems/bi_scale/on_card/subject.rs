@@ -28,7 +28,7 @@ pub struct TexturedMesh<'a> {
 /// Texture coordinates of triangle corners, in units of a patch that repeats `repeat` times. Fails with
 /// [`CardError::Input`] for a mesh without texture coordinates.
 pub fn corner_coordinates(mesh: &Mesh, repeat: [f32; 2]) -> Result<Vec<[[f32; 2]; 3]>, CardError> {
-    let none = "the mesh has no texture coordinates, by which a bidirectional texture is placed";
+    let none = "the mesh has no texture coordinates, which place a bidirectional texture";
     let of = mesh.texcoords().ok_or_else(|| CardError::input(none))?;
     let corner = |corner: u32| {
         let [u, v] = of[corner as usize];

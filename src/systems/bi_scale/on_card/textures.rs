@@ -56,7 +56,7 @@ fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(),
     let device = &profile.name;
     if format.record().is_float() && !profile.limits.float_filtering {
         return Err(CardError::input(format!(
-            "`{device}` filters no {format} textures (limits.float_filtering); hold samples in 8 bits"
+            "`{device}` does not filter {format} textures (limits.float_filtering); store samples in 8 bits"
         )));
     }
     let [width, height, layers] = grid.extents();
@@ -65,7 +65,7 @@ fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(),
             let (lights, pitch) = (grid.lights, grid.pitch());
             Err(CardError::input(format!(
                 "{lights} x {lights} blocks of {pitch} x {pitch} texels in {layers} layers need a volume of {width} x \
-                 {height} x {layers}; `{device}` has volumes of {found} per side (limits.max_volume_size); take a \
+                 {height} x {layers}; `{device}` has volumes of {found} per side (limits.max_volume_size); use a \
                  smaller patch, or fewer directions"
             )))
         }

@@ -35,7 +35,7 @@ pub fn load_bidirectional_texture(path: &Path) -> Result<BidirectionalTexture, I
         let refused = |_| {
             input_error!("crossbar::bidirectional_texture::directions" =>
                 "expected {what} of a square of k x k cells, k from 1 to {}, found {found}", LocalDirections::MOST;
-                help "sample the patch in the directions that docs/papers/bi_scale.md names, all of them")
+                help "sample the patch in all directions that docs/papers/bi_scale.md lists")
             .at(path)
         };
         LocalDirections::new(side).map_err(refused)

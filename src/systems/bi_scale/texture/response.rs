@@ -62,7 +62,7 @@ impl BidirectionalTexture {
         if let Some(at) = samples.iter().position(|sample| !is_good(sample)) {
             let (texel, pair) = (at % (size * size), at / (size * size));
             return Err(input_error!(
-                "expected samples of 0 or more, finite ones; found another at view {}, light {}, row {}, column {}",
+                "expected finite samples of 0 or more, found another number at view {}, light {}, row {}, column {}",
                 pair / lights,
                 pair % lights,
                 texel / size,

@@ -99,7 +99,7 @@ fn needed(clustering: &Clustering, registers: ConstantRegisters) -> Result<Vec<u
     let needed: Vec<usize> = clustering.subspaces().iter().map(|s| registers.needed(s.len())).collect();
     match needed.iter().position(|&needed| needed > registers.limit) {
         Some(cluster) => Err(input_error!(
-            "cluster {cluster} needs {} constant registers, expected at most {}; take fewer vectors",
+            "cluster {cluster} needs {} constant registers, expected at most {}; use fewer vectors",
             needed[cluster],
             registers.limit
         )),

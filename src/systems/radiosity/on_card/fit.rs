@@ -97,7 +97,9 @@ fn no_programs(profile: &Profile) -> CardError {
     let mut have: Vec<&str> = Profile::card_names().into_iter().filter(runs).collect();
     have.push("ideal-<format>");
     let chain = |reads: u32| {
-        format!(" (its own allow a chain of {reads} dependent reads (limits.dependent_reads); a block has hundreds)")
+        format!(
+            " (its programs allow {reads} dependent reads in a chain (limits.dependent_reads); a block has hundreds)"
+        )
     };
     let why = profile.limits.dependent_reads.map_or_else(String::new, chain);
     CardError::input(format!(

@@ -70,7 +70,7 @@ impl LinkTextures {
         match values.find(|value| value.is_nan() || **value > largest) {
             Some(&found) => Err(CardError::input(format!(
                 "expected factors of links of at most {largest:e} in textures of {format} texels, found {found:e}: \
-                 the areas of the model's texels differ too much; leave out faces that are far larger than the \
+                 the areas of the model's texels differ too much; remove faces that are far larger than the \
                  others, or store links in fp32"
             ))),
             None => Ok(()),

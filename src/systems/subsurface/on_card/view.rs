@@ -128,7 +128,7 @@ fn direct_lights<'a>(
     let found = lights.list.len();
     if found > most {
         return Err(CardError::input(format!(
-            "found {found} lights beside skies, a program of direct light on device `{}` takes at most {most}",
+            "found {found} lights other than skies, but direct light on device `{}` supports at most {most}",
             machine.profile().name
         )));
     }

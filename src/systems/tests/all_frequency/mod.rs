@@ -42,7 +42,9 @@ fn parts_must_go_together() {
         "expected segments of 16 numbers in increasing order, found segment 1 of 16"
     );
     let vertices = |segment: usize, points: usize, vertices: usize| {
-        format!("segment {segment}: expected {points} vertices below {vertices} in increasing order, found others")
+        format!(
+            "segment {segment}: expected {points} vertices below {vertices} in increasing order, found another list"
+        )
     };
     assert_eq!(refused(&|t| t.vertices = 38), vertices(4, 12, 38));
     assert_eq!(refused(&|t| t.segments[0].vertices[0] = 1), vertices(1, 30, 40));

@@ -205,10 +205,10 @@ fn what_does_not_fit_is_refused() {
         refused(device("r350"), touching),
     ];
     insta::assert_snapshot!(messages.join("\n"), @r"
-    4 x 4 blocks of 6 x 6 texels in 9 layers need a volume of 24 x 24 x 9; `gt200` has volumes of 23 per side (limits.max_volume_size); take a smaller patch, or fewer directions
-    4 x 4 blocks of 4 x 4 texels in 9 layers need a volume of 16 x 16 x 9; `gt200` has volumes of 8 per side (limits.max_volume_size); take a smaller patch, or fewer directions
+    4 x 4 blocks of 6 x 6 texels in 9 layers need a volume of 24 x 24 x 9; `gt200` has volumes of 23 per side (limits.max_volume_size); use a smaller patch, or fewer directions
+    4 x 4 blocks of 4 x 4 texels in 9 layers need a volume of 16 x 16 x 9; `gt200` has volumes of 8 per side (limits.max_volume_size); use a smaller patch, or fewer directions
     expected a bidirectional texture in rgba8, rgba16f or rgba32f, found rgba16s
-    `gt200` filters no rgba32f textures (limits.float_filtering); hold samples in 8 bits
+    `gt200` does not filter rgba32f textures (limits.float_filtering); store samples in 8 bits
     a direction of light, texture coordinates and the view need 3 sets of texture coordinates; `gt200` has 2 (limits.texture_coordinates)
     device `r350` refuses the display: it runs no `ps_2_a` programs; expected one of nv30, nv35, gt200
     ");
@@ -257,6 +257,6 @@ fn parts_that_do_not_go_together_are_refused() {
     expected 50 triangles with a texture, found 49
     expected 3 textures, which triangles name, found 1
     expected 4 directions of light in each texture, found 9
-    the mesh has no texture coordinates, by which a bidirectional texture is placed
+    the mesh has no texture coordinates, which place a bidirectional texture
     ");
 }

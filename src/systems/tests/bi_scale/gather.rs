@@ -110,8 +110,8 @@ fn what_does_not_fit_is_refused() {
     messages.push(of_rows(16).expect_err("refused").to_string());
     insta::assert_snapshot!(messages.join("\n"), @r"
     expected 10 numbers of light, found 9
-    expected light of finite numbers, of 0 or more in bytes, found -1
-    expected light of finite numbers, of 0 or more in bytes, found inf
-    16 rows need a texture of 8 x 4 texels; `gt200` has textures of 4 per side (limits.max_texture_size); take fewer
+    expected finite light, of 0 or more if it is stored in bytes, found -1
+    expected finite light, of 0 or more if it is stored in bytes, found inf
+    16 rows need a texture of 8 x 4 texels; `gt200` has textures of 4 per side (limits.max_texture_size); use fewer
     ");
 }

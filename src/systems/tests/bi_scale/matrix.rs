@@ -109,7 +109,7 @@ fn real_numbers_get_the_largest_units() {
 fn numbers_without_a_unit_are_refused() {
     for numbers in [[0.1, 0.25], [6e8, 0.25], [1e200, 1.0], [f64::from_bits(1), -1e300], [f64::MAX, -0.1]] {
         let said = of(&[(0, 1, numbers[0]), (2, 0, numbers[1])]).expect_err("refused").to_string();
-        assert!(said.starts_with("expected multiples of one power of two"), "{said}");
+        assert!(said.starts_with("expected multiples of a single power of two"), "{said}");
     }
     let infinite = of(&[(0, 0, 0.1), (1, 1, f64::INFINITY)]).expect_err("refused").to_string();
     assert_eq!(infinite, "expected finite values, found inf in row 1, column 1");

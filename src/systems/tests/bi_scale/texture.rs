@@ -65,8 +65,8 @@ fn samples_out_of_range_are_refused() {
     insta::assert_snapshot!(text.join("\n"), @"
     expected a patch of 1 to 1024 texels along an edge, found 0
     expected 16 samples (1 views x 4 lights x 2 x 2 texels), found 15
-    expected samples of 0 or more, finite ones; found another at view 0, light 0, row 0, column 0
-    expected samples of 0 or more, finite ones; found another at view 0, light 0, row 0, column 0
+    expected finite samples of 0 or more, found another number at view 0, light 0, row 0, column 0
+    expected finite samples of 0 or more, found another number at view 0, light 0, row 0, column 0
     ");
 }
 

@@ -64,6 +64,6 @@ pub fn require_mesh(path: &Path, expected: &MeshDigest, found: Option<MeshDigest
     Err(input_error!("crossbar::prt::mesh" =>
         "expected transfer of a mesh with {expected}, found that of {}",
         found.map_or_else(|| "no mesh".to_owned(), |found| found.to_string());
-        help "name the model that it was computed from, or compute it again with `precompute`")
+        help "give the model from which it was computed, or compute it again with `precompute`")
     .at(path))
 }

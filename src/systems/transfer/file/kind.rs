@@ -70,11 +70,12 @@ pub(crate) fn begin_reading<'a, T: DeserializeOwned>(
 ) -> Result<(NpzReader<'a>, T), InputError> {
     let mut arrays = NpzReader::new(bytes, name)?;
     let json = arrays.bytes(METADATA)?;
-    let invalid = |error: serde_json::Error| arrays.refuse(METADATA, "JSON as docs/npz.md has it", error.to_string());
+    let invalid =
+        |error: serde_json::Error| arrays.refuse(METADATA, "JSON as described in docs/npz.md", error.to_string());
     let Head { kind, version } = serde_json::from_slice(json).map_err(invalid)?;
     if kind != expected {
         return Err(input_error!("crossbar::prt::kind" =>
-            "expected a file of {expected}, found one of {kind}"; help "`crossbar {}` takes it", kind.command())
+            "expected a file of {expected}, found one of {kind}"; help "`crossbar {}` reads it", kind.command())
         .at(name));
     }
     if version != VERSION {
