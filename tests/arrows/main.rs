@@ -76,7 +76,7 @@ const CROSSBAR: Law = (
         ("clustering", "error geom linalg"),
         ("transfer", "error clustering card tracer elementary fresnel quadrature picture sphere geom scene linalg io"),
         ("cpca", "error clustering transfer card tracer elementary quadrature picture sphere geom scene linalg io"),
-        ("all_frequency", "error clustering transfer card elementary picture sphere geom scene linalg io"),
+        ("all_frequency", "error clustering transfer card elementary fresnel picture sphere geom scene linalg io"),
         ("bi_scale", "error clustering transfer card tracer elementary picture sphere geom scene linalg io"),
         ("ray_engine", "error card tracer geom scene linalg io"),
         ("renderer", "error card tracer elementary fresnel picture sphere geom scene linalg"),
