@@ -50,7 +50,10 @@ fn finished_segments_are_kept() {
     }
     let other = refused_line(&format!("{options} --bits 12 --out {out}"));
     assert!(other.contains("segment-00.kept: expected a result of crossbar"), "{other}");
-    assert!(other.contains("--bits 12") && other.contains("found a result of crossbar all-frequency compress"), "{other}");
+    assert!(
+        other.contains("--bits 12") && other.contains("found a result of crossbar all-frequency compress"),
+        "{other}"
+    );
     assert!(other.contains("--bits 16") && other.contains("choose another folder"), "{other}");
     let signal = place(folder.path(), "signal.npz");
     fs::copy(SIGHT, &signal).expect("a copy");
