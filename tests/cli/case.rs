@@ -272,7 +272,7 @@ fn a_program_that_runs_too_long_is_an_error() {
     let traced = fails(&["run", "case.toml", "--trace", "7,3"]);
     assert!(traced.contains("pixel (7, 3)") && traced.contains("1000"), "{traced}");
     with_budget(5, &text);
-    assert!(fails(&["compare", "case.toml"]).contains("the 5 steps"));
+    assert!(fails(&["compare", "case.toml"]).contains("5 steps"));
     with_budget(0, &text);
     assert!(fails(&["run", "case.toml"]).contains("step budget of 1 or more"));
     let fits = text.replace("[255, 0, 0, 0]", "[2, 0, 0, 0]");
