@@ -21,7 +21,7 @@ coordinates
 The side is a power of two, up to 8192; every face needs at least one texel.
 Written to --out: index.html (self-contained), study.json, evenness.csv, levels.csv, mesh.csv, faces.png and level_N.png \
 (the atlas), model_*.png (the mesh in the same colors), atlas.obj and atlas.mtl (each face split into two triangles, \
-with texture coordinates), faces.csv (each face's rectangle). docs/atlas.md explains all of it.";
+with texture coordinates), faces.csv (each face's rectangle). docs/atlas.md explains these files.";
 
 /// Map a mesh into a square of texels, with clusters of faces for every level: the multiresolution meshed atlas
 #[derive(Debug, clap::Args)]

@@ -156,7 +156,9 @@ fn suffix(m: &mut Mnemonic, base: &str, part: &str, span: Span) -> Result<(), Sy
             "bias" | "bx2" | "dz" | "dw" | "db" | "da" => {
                 format!("`_{lower}` belongs on a source operand: `r0_{lower}`")
             }
-            _ => format!("write `{base}` without modifiers, or with some of them in any order: `{base}_x2_sat`"),
+            _ => format!(
+                "write `{base}` without modifiers, or with some of these modifiers in any order: `{base}_x2_sat`"
+            ),
         };
         return Err(SyntaxError::new(
             ErrorKind::UnknownInstructionModifier,

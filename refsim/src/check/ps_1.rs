@@ -75,7 +75,8 @@ fn sequences(context: &mut Context<'_>) {
             && source.index >= stage
         {
             let name = instruction.opcode.info().mnemonic;
-            let message = format!("`{name}` of stage {stage} reads `{source}`, expected an earlier stage");
+            let message =
+                format!("`{name}` of stage {stage} reads `{source}`, expected the result of an earlier stage");
             context.breach(RuleId::TextureChain, instruction.span, message);
         }
         let rows = match instruction.opcode {

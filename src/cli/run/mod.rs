@@ -25,9 +25,8 @@ Examples:
   crossbar run docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3
       a fragment shader in WGSL, on a single-precision device (needs the feature wgsl)
 
-docs/cases.md describes the case format. Unsigned targets are written as PNG, all others and the depth buffer as \
-EXR. The counts measure the work, in instruction slots and bytes; `crossbar timeline` says how long a card \
-takes.
+docs/cases.md describes the case format. Unsigned targets are written as PNG, all others and the depth buffer as EXR. \
+The counts measure the work, in instruction slots and bytes; `crossbar timeline` models how long a card takes.
 
 Exit codes: 0 done, 1 a probe did not find the expected value, 2 the case cannot be run.";
 

@@ -43,7 +43,9 @@ pub(super) fn findings(args: &Args, run: &CardRun, timed: &[TimedLog]) -> Findin
         }
         if one.replay.uncosted > 0 {
             let (name, operations) = (one.name(), one.replay.uncosted);
-            found.print(format!("{name}: {operations} operations of the host cost nothing: they are not calibrated"));
+            found.print(format!(
+                "{name}: {operations} operations of the host take no time, because they are not calibrated"
+            ));
         }
     }
     found.table(FoundTable::from(totals(run, timed)).field("totals"));

@@ -30,8 +30,8 @@ pub(in crate::cli) struct PictureArgs {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// Exposure: a factor on radiance; in pictures, 1 is white [default: automatic, the mean of the model is 18 %
-    /// grey]
+    /// Exposure: a factor on radiance; in pictures, 1 is white [default: automatic, so that the mean of the model is 18
+    /// % grey]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     exposure: Option<f64>,
 }

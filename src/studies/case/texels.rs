@@ -157,7 +157,11 @@ fn fill(
     let found = texels.get_ref().len();
     if found != expected {
         let message = format!("expected {expected} texels in level {level}, found {found}");
-        return Err(binder.place.wrong(texels.span(), message, "each level has half the sides of the previous level"));
+        return Err(binder.place.wrong(
+            texels.span(),
+            message,
+            "each level has half the side lengths of the previous level",
+        ));
     }
     let mut values = texels.get_ref().iter();
     for slice in 0..extent.slices {

@@ -133,9 +133,9 @@ fn programs() -> Markup {
             h2 #programs { "Programs, instruction by instruction" }
             p {
                 "These are pixel programs of the published systems, at one pixel. Every step that the emulator made is \
-                 stored in the page; your GPU makes it again in whole numbers, and each bit is compared. The same \
-                 program also runs, from the same inputs, in your GPU's own floats. Choose a pixel by mouse or arrow \
-                 keys; on the listing, arrow keys step."
+                 stored in the page; your GPU repeats it in whole numbers, and each bit is compared. The same program \
+                 also runs on the same inputs in your GPU's own floats. Choose a pixel by mouse or arrow keys; on the \
+                 listing, arrow keys step."
             }
             div.stand {
                 div.chooser {
@@ -198,7 +198,7 @@ fn fixed_views(views: &[FixedView]) -> Markup {
         section aria-labelledby="fixed" {
             h2 #fixed { "Fixed views, bit for bit" }
             p {
-                "These are pictures of the emulator. Your GPU draws each of them again if it can; triangle and \
+                "The emulator drew these pictures. Your GPU draws each of them again if it can; triangle and \
                  distance of every pixel must have the emulator's bits. All formats round to nearest; our Radeon 8500 \
                  computes in s3.12 rounded down, which leaks most: choose this rounding above."
             }

@@ -75,7 +75,7 @@ pub struct RadiosityOptions {
     #[arg(long = "storage", value_name = "F", value_parser = variants::<Storage>())]
     storages: Vec<Storage>,
 
-    /// Stop when the norm of the residual is at most this fraction of the emittance's [default: 1e-4; 0 with
+    /// Stop when the norm of the residual is at most this fraction of the emittance's norm [default: 1e-4; 0 with
     /// --iterations]
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     tolerance: Option<f64>,

@@ -92,7 +92,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: &RadiosityOutcome) -> R
 const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures; the \
     bar below each picture shows the scale. docs/studies/radiosity.md explains why half precision darkens a room.";
 
-const ENDS: &str = "An iteration in finite precision that never meets its tolerance repeats an earlier state, and \
+const ENDS: &str = "An iteration in finite precision that never meets its tolerance returns to an earlier state, and \
     cycles from there on. States are compared bit for bit; the period is the smallest.";
 
 const ON_THE_CARD: &str = "Operations are counted as in the paper: two per element and channel, without indexing. \

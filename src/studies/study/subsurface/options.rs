@@ -152,7 +152,7 @@ fn rgb() -> OneOf<bool> {
 }
 
 fn yes_or_no() -> OneOf<bool> {
-    one_of([("yes", "Gather over all pairs", true), ("no", "Leave them out", false)])
+    one_of([("yes", "Gather over all pairs", true), ("no", "Leave out the sum over all pairs", false)])
 }
 
 impl SubsurfaceOptions {

@@ -56,7 +56,7 @@ pub struct Parameters {
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
-    /// Lengthen edges of patches and models by this factor, for a quick look
+    /// Make the edges of patches and of the models' triangles longer by this factor, for a quick look
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = number::whole::<u32>(1..=8))]
     coarser: u32,
 }

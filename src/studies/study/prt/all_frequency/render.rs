@@ -50,7 +50,8 @@ fn conclude(drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
     if negative > 0 {
         let least = shown(least, Quantity::Measured);
         found.conclusion(format!(
-            "{negative} pixels are below 0, down to {least}: factors cut off after m terms have negative lobes."
+            "{negative} pixels are below 0, down to {least}: factors that are cut off after some terms have negative \
+             lobes."
         ));
     }
     found.fields(json!({

@@ -27,8 +27,8 @@ use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::light::DistantLight;
 
 const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in \
-    steps of 1/255, against equation 3 and light multiplied in double precision. 8-bit fractions are relative to the \
-    largest number.";
+    steps of 1/255, against equation 3 and products with light in double precision. 8-bit fractions are relative to \
+    the largest number.";
 const TIME: &str = "Times are modelled, not measured, by the pipeline model of the card, in which texture reads run \
     at the full rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is \
     reused.";
