@@ -84,7 +84,7 @@ rules! {
     TexKillOperand V41 "the operand of texkill is a whole r# or t# (ps_2_0 and up)";
     ScalarSource V42 "scalar instructions read one component";
     SinCosOperands V43 "sincos writes .x, .y or .xy and reads one component and two different constants";
-    Dp2AddSource V44 "dp2add adds one component";
+    Dp2AddSource V44 "the addend of dp2add is one component";
     RelativeAddress V45 "relative addresses are used only in vertex programs, and only for constants";
     InvalidSaturate V46 "frc and sincos are not saturated (ps_2_0 and up)";
     Operands V47 "the instruction has its operands, of files that it can read";
@@ -105,7 +105,7 @@ rules! {
     TooManyOperandReads V62 "an instruction reads one attribute and one constant at most (!!FP1.0)";
     FragmentOutputs V63 "the program writes colour, in only one precision, or depth, through z (OpenGL)";
     ImageUnitTarget V64 "an image unit is read as one kind of texture (OpenGL)";
-    RegisterWeight V65 "registers weigh 64 at most: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
+    RegisterWeight V65 "all registers together weigh at most 64: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
     Indirections V66 "chains of dependent texture reads are no longer than allowed (!!ARBfp1.0)";
     TooManyResources V67 "temporaries, parameters and attributes, used or not, fit the device (!!ARBfp1.0)";
 }

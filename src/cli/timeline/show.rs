@@ -198,7 +198,7 @@ fn shares(timed: &TimedLog) -> Table {
 fn guesses(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
     let headings = ["guess", "value", "halved", "halved %", "doubled", "doubled %"];
-    let mut table = timed.table("guessed figures: the total with half and with twice the value", &headings);
+    let mut table = timed.table("guessed figures: the total time with half and with twice the value", &headings);
     for row in &timed.sensitivity {
         let (halved, doubled) = (row.halved, row.doubled);
         table.push([

@@ -217,8 +217,8 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
         found.paragraph(
             "The paper's equations are evaluated once for each triangle, and on a shared edge the two results need not \
              agree: a ray can miss both neighbouring triangles, in any precision. These rays are aimed from the eye at \
-             random points of every shared edge, and at every vertex; only rays that truly hit are counted. A miss at \
-             an outline counts as a leak too.",
+             random points of every shared edge, and at every vertex; only rays that hit in exact arithmetic are \
+             counted. A miss at an outline counts as a leak too.",
         );
     }
     found.table(edges.csv("edges").field("edges"));
@@ -298,7 +298,7 @@ fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutco
     });
     if parameters.listed.is_some() {
         found.paragraph(
-            "The rays are a list: pictures show them row by row, in the order of the file, one pixel per ray.",
+            "The rays come from a file: pictures show them row by row, in the order of the file, one pixel per ray.",
         );
     }
     if !groups.is_empty() {

@@ -54,8 +54,8 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
                     h1 { "Your GPU against the cards of 2001" }
                     p {
                         "This page runs the arithmetic of early graphics cards on your GPU, in whole numbers, and \
-                         compares every bit with the results of Crossbar's emulator, which the page contains. It also \
-                         shows your GPU's own floats."
+                         compares every bit with the results of Crossbar's emulator, which the page contains. \
+                         It also shows the results of your GPU's own floats."
                     }
                     p #status role="status" { "Waiting for the script. Without it the page shows stored pictures." }
                     dl #adapter {}
@@ -82,7 +82,7 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
 fn arithmetic() -> Markup {
     html! {
         section aria-labelledby="integers" {
-            h2 #integers { "Operations by formats, in whole numbers" }
+            h2 #integers { "Operations in each format, in whole numbers" }
             p {
                 "Each cell counts the operand sets whose bits on your GPU differ from the emulator's. The count must \
                  be 0 everywhere, on every GPU, because only integers are used. A count above 0 links to the first \

@@ -98,8 +98,9 @@ const ENDS: &str = "An iteration in finite precision that never meets its tolera
 const ON_THE_CARD: &str = "Operations are counted as in the paper: two per element and channel, without indexing. \
     bandwidth_used is the memory traffic of an iteration as a share of what the memory can transfer in that time.";
 
-const SWEEP: &str = "A switch is an open question about the card; each is changed alone. Settings with the same bits \
-    share a row. predicted_mean is the first-order prediction if every term of a sum is rounded to the sum's step.";
+const SWEEP: &str = "A switch is an open question about the card; each switch is changed alone. Settings with the same \
+    bits share a row. predicted_mean is the first-order prediction of mean_relative if every term of a sum is rounded \
+    to the sum's step.";
 
 fn frame(frame: &IterationPicture) -> NamedPicture {
     let caption = format!("after {}", counted(frame.iteration.into(), "iteration", "iterations"));

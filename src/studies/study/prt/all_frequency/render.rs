@@ -77,7 +77,8 @@ impl LitModel {
             100.0 * (apart / b.iter().flatten().map(|value| value * value).sum::<f64>()).sqrt()
         };
         let pixels = share(drawn, &picture);
-        let of_pixels = "root mean square difference of pixels, relative to the picture's root mean square (%)";
+        let of_pixels =
+            "root mean square difference of the pixels, relative to the root mean square of the picture (%)";
         let table = Table::new("Coded against uncompressed", &["figure", "value"]).with([
             [of_pixels.into(), Cell::measured(pixels)],
             ["the same for vertices (%)".into(), Cell::measured(share(of_vertex, exact))],

@@ -129,7 +129,7 @@ impl BiScaleOnCard {
         ] {
             if expected != found {
                 let what = format!("expected transfer of {expected} {what}, found {found}");
-                let help = "precompute transfer with as many `--directions` as the texture has for light";
+                let help = "precompute the transfer with the texture's number of light `--directions`";
                 return Err(StudyError::new("crossbar::prt::bi_scale", what).with_help(help));
             }
         }
