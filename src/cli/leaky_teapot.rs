@@ -24,7 +24,7 @@ use crate::study::leaky_teapot::{LeakyTeapotOptions, Parameters};
 const EXAMPLES: &str = "\
 Examples:
   crossbar leaky-teapot
-      Figure 4 of the Ray Engine paper and the study behind it, in out/leaky-teapot/index.html
+      Figure 4 of the Ray Engine paper, with a study of its leaks, in out/leaky-teapot/index.html
   crossbar leaky-teapot --size 256x256 --format s3.12 --format e5m10:rtz --format fp32 --out formats
       number formats that you choose, on a device without limits
   crossbar leaky-teapot --device r300 --device nv35 --json

@@ -34,9 +34,9 @@ squaring that is most to blame
 The smallest format of an expression has the fewest bits of all formats of its family that meet the goal; if \
 there are several such formats, it has the smallest error of them.
 
-Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. \
-Written to --out: index.html, mixed.toml (a device with a format per instruction, for --device), curve.csv and other \
-tables. docs/precision.md describes what is measured.
+Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. Written to --out: index.html, \
+mixed.toml (a device file with a number format per instruction, for --device), curve.csv and other tables. \
+docs/precision.md describes what is measured.
 
 Exit codes: 0 a format meets the goal, 1 no format does, or one of several expressions has no such format, 2 the case, \
 the expressions or the goal cannot be used.";

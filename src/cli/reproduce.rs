@@ -36,8 +36,8 @@ repeats the runs and compares the results with the records. The source of a row 
 An interrupted run leaves no incomplete files; the next run starts from the beginning. With --record,
 it continues where the last run stopped: existing records are kept, and so are the finished pieces of
 all-frequency-table-1 and all-frequency-figures, which take hours; the pieces are in FOLDER/ID.pieces.
-The exit code is 0 even if figures are missed: a missed figure is a finding, and docs/papers lists it with
-its open question. The exit code is 1 if --full-size computes a value that differs from its record.";
+The exit code is 0 even if figures are missed: a missed figure is a finding, and docs/papers lists the figure with its \
+open question. The exit code is 1 if --full-size computes a value that differs from its record.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
 #[derive(Debug, clap::Args)]

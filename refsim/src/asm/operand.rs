@@ -226,7 +226,7 @@ impl<'a> Parser<'a> {
                 Span::new(start.span.start, self.last_end()),
                 "a register without letters or modifiers",
                 quote(start.text),
-                "a definition gives all components: `def c0, 1, 0, 0, 0`",
+                "a definition sets all components: `def c0, 1, 0, 0, 0`",
             ));
         }
         Ok(named.register)

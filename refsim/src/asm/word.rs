@@ -174,7 +174,7 @@ fn suffix(m: &mut Mnemonic, base: &str, part: &str, span: Span) -> Result<(), Sy
 fn unknown_opcode(token: &Token<'_>, base: &str) -> SyntaxError {
     let help = match nearest(base) {
         Some(near) => format!("did you mean `{near}`?"),
-        None if base.eq_ignore_ascii_case("dp2") => "write `dp2add` with a zero".to_owned(),
+        None if base.eq_ignore_ascii_case("dp2") => "write `dp2add` with an addend of zero".to_owned(),
         None => "no version from ps_1_1 to ps_2_b, vs_1_1 or vs_2_0 has such an instruction".to_owned(),
     };
     SyntaxError::new(

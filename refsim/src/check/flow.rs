@@ -284,7 +284,7 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
                     span(call.at),
                     format!("subroutine `l{}` comes before its call", call.label),
                 )
-                .help("subroutines call only later ones, so that none can call itself");
+                .help("a subroutine can only call later subroutines, so that none can call itself");
             continue;
         }
         context.jump[call.at] = Some(target);

@@ -66,7 +66,7 @@ pub(super) struct Args {
     order: u8,
 
     /// Number of functions of exit radiance, for --kind glossy: a square such as 16 or 25, or one less than a square
-    /// (such as 24), which omits l = 1, m = 0 [default: 25]
+    /// (such as 24), which omits the function l = 1, m = 0 [default: 25]
     #[arg(long, value_name = "COUNT", value_parser = rows)]
     rows: Option<ExitBasis>,
 

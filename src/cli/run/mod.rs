@@ -50,7 +50,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "scalar")]
     executor: DeviceExecutor,
 
-    /// Show what every instruction writes at a pixel: column and row, counted from 0 at the top left
+    /// Show what every instruction writes at the pixel in this column and row, counted from 0 at the top left
     #[arg(long, value_name = "X,Y", value_parser = pixel::parse, allow_hyphen_values = true)]
     trace: Option<[u32; 2]>,
 }

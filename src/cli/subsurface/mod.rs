@@ -25,7 +25,7 @@ Examples:
   crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32
       the coefficients of the paper's Figure 7, with every format of the map and of the links
   crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2
-      a lamp and a sky
+      a lamp, and ambient light as a sky
   crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20
       an environment map with shadows, and marble with another index of refraction
 

@@ -52,7 +52,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
-    /// Whether the host waits for read-backs [default: as in the run]
+    /// Whether the host waits for read-backs [default: as it did in the run]
     #[arg(long, value_name = "MODE", value_parser = readback())]
     pub(super) readback: Option<ReadBackMode>,
 

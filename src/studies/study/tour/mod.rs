@@ -52,7 +52,7 @@ const SHADOW_GROUP: usize = 8;
 /// Parameters of the tour.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Parameters {
-    /// Pixels of the picture
+    /// Size of the picture, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
