@@ -15,13 +15,13 @@ Examples:
   crossbar atlas docs/examples/teapot.obj --side 256
       how evenly the texels are distributed over the faces, and how connected and compact the clusters are
   crossbar atlas stanford-bunny --side 512 --out out/bunny
-      pictures of the atlas and the mesh, colored by face and by the clusters of some levels; the mesh with texture \
-coordinates
+      pictures of the atlas and the mesh, colored by face and by the clusters of some levels; a file of the mesh with \
+texture coordinates
 
 The side is a power of two, up to 8192; every face needs at least one texel.
 Written to --out: index.html (self-contained), study.json, evenness.csv, levels.csv, mesh.csv, faces.png and level_N.png \
 (the atlas), model_*.png (the mesh in the same colors), atlas.obj and atlas.mtl (each face split into two triangles, \
-with texture coordinates), faces.csv (each face's rectangle). docs/atlas.md explains all of it.";
+with texture coordinates), faces.csv (each face's rectangle). docs/atlas.md explains these files.";
 
 /// Map a mesh into a square of texels, with clusters of faces for every level: the multiresolution meshed atlas
 #[derive(Debug, clap::Args)]
@@ -40,7 +40,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true, requires = "out")]
     size: Size,
 
-    /// Folder for pictures, tables, page and files [default: write nothing]
+    /// Folder for the pictures, the tables, the page and the mesh [default: write nothing]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

@@ -39,7 +39,7 @@ pub(super) struct Args {
     #[command(flatten)]
     options: DifferenceOptions,
 
-    /// Write maps, page and tables to this folder [default: write nothing]
+    /// Write the maps of differences, the page and the tables to this folder [default: write nothing]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

@@ -29,17 +29,18 @@ use crate::tracer::Caster as _;
 const EXAMPLES: &str = "\
 Examples:
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --executor exact --out hits.csv
-      decided in exact arithmetic on the f32 numbers of the files
+      the hits in exact arithmetic on the f32 numbers of the files
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --out hits.csv
-      as a Radeon 8500 computes it; each ray is tested against the triangles near it
+      the hits that a Radeon 8500 computes; each ray is tested against the triangles near it
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster host --time --out hits.csv
       by the host's octree in single precision, with the times of building the octree and casting the rays
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --caster-device r300 --time --out hits.csv
       the same by the Ray Engine, on the host and an emulated Radeon 9700 together
 
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, one line
-per ray. Triangles are numbered from 0 in the order of the mesh file; a ray without a hit has triangle -1 and t inf. \
-t is in multiples of the ray's direction. Its text reads back to the same f32, or to the same f64 where t exceeds f32.
+per ray. Triangles are numbered from 0 in the order of the mesh file; a ray without a hit has triangle -1 and t inf. t \
+counts lengths of the ray's direction. It is printed with enough digits to read back the same f32, or the same f64 \
+where t exceeds the range of f32.
 
 `crossbar leaks --mesh M.obj --rays R.csv` judges the same rays on any card: which rays leak, hit falsely or hit a wrong triangle.
 
@@ -69,8 +70,8 @@ pub(super) struct Args {
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 
-    /// Print on standard error the time of casting, the rays per second, and the time of building. The time for files
-    /// is not counted
+    /// Print on standard error the times of building the search structure and of casting, and the rays per second. The
+    /// time for files is not counted
     #[arg(long)]
     time: bool,
 

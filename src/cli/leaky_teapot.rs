@@ -24,19 +24,19 @@ use crate::study::leaky_teapot::{LeakyTeapotOptions, Parameters};
 const EXAMPLES: &str = "\
 Examples:
   crossbar leaky-teapot
-      Figure 4 of the Ray Engine paper and the study behind it, in out/leaky-teapot/index.html
+      Figure 4 of the Ray Engine paper, with a study of its leaks, in out/leaky-teapot/index.html
   crossbar leaky-teapot --size 256x256 --format s3.12 --format e5m10:rtz --format fp32 --out formats
       number formats that you choose, on a device without limits
   crossbar leaky-teapot --device r300 --device nv35 --json
-      two cards as they are, the rows as JSON on standard output
+      two cards with their default switches; the rows as JSON on standard output
   crossbar leaky-teapot --size 256x256 --device r200 --device r300 --kernel paper --kernel shared-edges
-      two cards with the paper's program, and with one whose edges cannot leak
+      two cards with the paper's program, and with a program whose edges cannot leak
   crossbar leaks --mesh docs/examples/step.obj --size 128x128 --device r200 --out leaks
       your own model on a Radeon 8500: `leaks` is another name for this command
   crossbar leaks --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --device r300 --out leaks
       your own rays, as for `crossbar intersect`, on two cards
 
-With both --device and --format, every device runs in every format; the other settings of a device file do not change.
+With both --device and --format, every device runs in every format; its other settings do not change.
 Written to --out: index.html (self-contained), rows.csv, edges.csv, programs.csv, study.json, and for each row NAME: \
 NAME.png (shaded), NAME-map.png (wrong pixels by kind), NAME.exr (t and triangle). \
 Rows with the same bits share these files: see same_bits in study.json.";
@@ -78,8 +78,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "F")]
     format: Vec<String>,
 
-    /// The program: the paper's, whose edges leak, or one that evaluates an edge once for both triangles; may be
-    /// repeated [default: paper; without --device and --format, also five rows with shared edges]
+    /// The program: the paper's, whose edges leak, or a program that evaluates each edge once for both of its
+    /// triangles; may be repeated [default: paper; without --device and --format, also five rows with shared edges]
     #[arg(long, value_name = "K", value_parser = kernels())]
     kernel: Vec<EdgeRule>,
 

@@ -14,7 +14,7 @@ Examples:
   crossbar man --out out/man
       out/man/crossbar.1, crossbar-alu.1 and so on; `man out/man/crossbar-alu.1` shows a page
   crossbar man --out ~/.local/share/man/man1
-      to the folder where `man crossbar-alu` looks for it";
+      writes the pages to a folder in which `man` looks for them";
 
 /// Write manual pages: one for the program, and one for each command and subcommand
 #[derive(Debug, clap::Args)]

@@ -17,7 +17,7 @@ Examples:
   crossbar materials ketchup --json
       the same for ketchup, as JSON
 
-Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001.";
+Coefficients are per mm, lengths in mm. The dipole is the model of Jensen et al. 2001.";
 
 /// Distances of the table, in units of the longest mean free path.
 const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];

@@ -59,7 +59,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "exact|UNIT", default_value = "exact", value_parser = reference)]
     against: MatmulReference,
 
-    /// Follow the sum of one element of D, counted from 0
+    /// Follow the sum of one element of D; its row and column count from 0
     #[arg(long, value_name = "ROW,COLUMN", value_parser = place)]
     blame: Option<[usize; 2]>,
 

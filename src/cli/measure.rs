@@ -14,8 +14,8 @@ Examples:
       the same, with one switch already known, as JSON
 
 The table has the header `case,column,row,red,green,blue,alpha,depth`: a case file, a pixel of it, and the codes that \
-the card stored there. docs/measuring.md describes it. For each open switch of the cards, it has a small case that \
-tells the switch's values apart.
+the card stored there. docs/measuring.md describes the table, and has a small case for each open switch of the cards \
+that tells the switch's values apart.
 
 Exit codes: 0 a setting reproduces every measured code, 1 no setting does, 2 the table or a case cannot be used.";
 

@@ -75,7 +75,7 @@ Three things to try:
   crossbar render office --renderer path --samples 4
                                          a picture of an office; `--caster engine` has the Ray Engine cast its rays
   crossbar reproduce ray-engine-equation-11
-                                         a paper's printed numbers for an equation, beside our own
+                                         the numbers that a paper prints for an equation, beside ours
 
 `crossbar --help` lists all commands. `crossbar leaky-teapot --help` describes a command, with examples.
 ";

@@ -22,9 +22,10 @@ Examples:
   crossbar precision --fpcore fixtures/fpbench/suite.fpcore --samples 100 --out out/suite      # exit code 1
       all expressions of a file in FPCore
   crossbar precision docs/examples/highlight.toml
-      the fewest bits, of floats and of fixed point, with which no code is off by more than one; which squaring decides
+      the fewest bits, of floats and of fixed point, with which no stored code is off by more than one, and the \
+squaring that is most to blame
   crossbar precision docs/examples/highlight.toml --goal \"flip<=0.01\" --family fixed --out out/flip
-      your own goal, in fixed point alone
+      your own goal, in fixed point only
   crossbar precision radiosity --family float --out out/radiosity_bits
       one of the six systems, on a small built-in input and the card of its paper
   crossbar precision docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3 --out out/ggx
@@ -33,12 +34,12 @@ Examples:
 The smallest format of an expression has the fewest bits of all formats of its family that meet the goal; if \
 there are several such formats, it has the smallest error of them.
 
-Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. \
-Written to --out: index.html, mixed.toml (a device with a format per instruction, for --device), curve.csv and other \
-tables. docs/precision.md describes what is measured.
+Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. Written to --out: index.html, \
+mixed.toml (a device file with a number format per instruction, for --device), curve.csv and other tables. \
+docs/precision.md describes what is measured.
 
-Exit codes: 0 a format meets the goal, 1 no format does (with several expressions: for at least one of them), 2 the \
-case, the expressions or the goal cannot be used.";
+Exit codes: 0 a format meets the goal, 1 no format does, or one of several expressions has no such format, 2 the case, \
+the expressions or the goal cannot be used.";
 
 /// Default maximum number of runs of a program.
 const BUDGET: u64 = 10_000;
@@ -82,8 +83,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
 
-    /// A case with the same pixel program, not used in the search, on which the format per instruction is tested; each
-    /// system has such a case built in
+    /// A case with the same pixel program, not used in the search, on which the formats that were found per instruction
+    /// are tested; each system has such a case built in
     #[arg(long, value_name = "CASE.toml")]
     held_back: Option<PathBuf>,
 

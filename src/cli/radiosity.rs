@@ -27,7 +27,7 @@ Written to --out: index.html (self-contained), rows.csv, patches.csv (radiosity 
 (radiosity of every vertex of the smooth display), study.json, residual.svg, sweep.csv and sweep.svg (with \
 --sweep-patches), pictures of every method (NAME-flat.png and NAME-smooth.png; NAME-error.png for a card if direct is \
 computed, too) and of --picture-after, timeline.json (for a card; a trace for https://ui.perfetto.dev or \
-chrome://tracing). docs/papers/radiosity.md explains all of it.";
+chrome://tracing). docs/papers/radiosity.md explains these files.";
 
 /// Compute diffuse light in a scene by radiosity: patches, form factors, iterations as fragment programs
 #[derive(Debug, clap::Args)]

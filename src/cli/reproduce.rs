@@ -32,12 +32,12 @@ Written to --out: index.html (self-contained), rows.csv, tally.csv, unjudged.csv
 drawing NAME.svg for each chart.
 Each printed figure has one row, with its verdict, its bound, and the date on which the bound was stated. The page
 explains the verdicts. Entries that take minutes to hours come from recorded runs, stored in the program; --full-size
-repeats the runs and compares the results with the records. The source of a row says whether it was recorded.
+repeats the runs and compares the results with the records. The source of a row says whether the row was recorded.
 An interrupted run leaves no incomplete files; the next run starts from the beginning. With --record,
 it continues where the last run stopped: existing records are kept, and so are the finished pieces of
-all-frequency-table-1 and all-frequency-figures, which take hours; they are in FOLDER/ID.pieces.
-The exit code is 0 even if figures are missed: a missed figure is a finding, and docs/papers lists it with
-its open question. The exit code is 1 if --full-size computes a value that differs from its record.";
+all-frequency-table-1 and all-frequency-figures, which take hours; the pieces are in FOLDER/ID.pieces.
+The exit code is 0 even if figures are missed: a missed figure is a finding, and docs/papers lists the figure with its \
+open question. The exit code is 1 if --full-size computes a value that differs from its record.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
 #[derive(Debug, clap::Args)]
@@ -51,7 +51,7 @@ pub(super) struct Args {
     #[arg(long)]
     list: bool,
 
-    /// Repeat recorded runs and compare them with their records: minutes for most, hours for two
+    /// Repeat recorded runs and compare them with their records; most runs take minutes, two take hours
     #[arg(long)]
     full_size: bool,
 

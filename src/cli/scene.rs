@@ -18,7 +18,8 @@ Examples:
   crossbar scene office
       the contents of one scene: triangles, materials, emitters, views
   crossbar scene teapot-room --out out/scenes
-      out/scenes/teapot_room.toml (views and point lights), teapot_room.obj and teapot_room.mtl, which read back to the same bits";
+      out/scenes/teapot_room.toml (views and point lights), teapot_room.obj and teapot_room.mtl, from which the same \
+bits are read back";
 
 /// List the built-in scenes, show the contents of one scene, or write its files
 #[derive(Debug, clap::Args)]

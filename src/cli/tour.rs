@@ -12,7 +12,7 @@ Examples:
 in the room, a glossy bunny and a marble suit of armor
 
 Written to --out: index.html (self-contained), room.png, clock.csv and timeline.json (the modelled time of every step, a trace \
-for https://ui.perfetto.dev or chrome://tracing), formats.csv (what each number format costs each system).";
+for https://ui.perfetto.dev or chrome://tracing), formats.csv (the error of each system in each number format).";
 
 /// Compute one room with four systems: rays, radiosity, radiance transfer, subsurface scattering
 #[derive(Debug, clap::Args)]

@@ -27,7 +27,7 @@ impl KeptWork {
         let digest = |path: &&Path| match File::open(path).and_then(sha256) {
             Ok(digest) if path.is_file() => Ok(format!("`{}` with SHA-256 {digest}", path.display())),
             Ok(_) => Err(input_error!("crossbar::kept::input" => "{}: expected a file, found a pipe", path.display();
-                help "save it to a file: kept results belong to the contents of their input")),
+                help "save the input to a file: kept results belong to the contents of their input")),
             Err(source) => Err(unreadable(path, source)),
         };
         let own = [format!("crossbar {program}"), command].map(Ok);

@@ -157,7 +157,7 @@ fn textures_that_do_not_fit_are_refused() {
     let cut = place(folder.path(), "cut.npy");
     fs::write(&cut, &bytes[..end - 12]).expect("written");
     for (options, said) in [
-        (format!("--texture {file}"), "expected 16 directions of light, as the transfer has, found 9"),
+        (format!("--texture {file}"), "expected 16 directions of light, as in the transfer, found 9"),
         (format!("--texture {damaged}"), "view 3, light 8, row 0, column 0"),
         (format!("--texture {cut}"), "expected 108 x 4 bytes"),
         (format!("--texture {file} --texture-size 8"), "`--texture-size` is for textures of patches"),

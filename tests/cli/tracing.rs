@@ -45,7 +45,7 @@ fn the_engine_in_single_precision_computes_what_the_host_does() {
         };
         let [(host, _), (engine, said)] = [file(&[]), file(&["--caster", "engine", "--pass-rays", "32"])];
         assert!(host == engine, "{line:?}");
-        assert!(said.contains("rays met the card") && said.contains("engine: 0 of "), "{said}");
+        assert!(said.contains("rays were tested on the card") && said.contains("engine: 0 of "), "{said}");
     }
 }
 

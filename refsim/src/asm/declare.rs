@@ -149,7 +149,7 @@ impl<'a> Parser<'a> {
                     span,
                     format!("`{lower}` with {} after its register", values_in_words(wanted)),
                     values_in_words(values.len()),
-                    "a definition gives all components: `def c0, 1, 0, 0, 0`, `defb b0, true`",
+                    "a definition sets all components: `def c0, 1, 0, 0, 0`, `defb b0, true`",
                 ));
                 return;
             }

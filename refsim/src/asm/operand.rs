@@ -145,7 +145,7 @@ impl<'a> Parser<'a> {
         let help = match token.kind {
             TokenKind::Number => "an operand cannot be a number: write `def c0, ...` first, then `c0`",
             TokenKind::Newline | TokenKind::End => "the operand is missing",
-            _ => "an operand is a register, with modifiers and letters: `-r0_bx2.xyz`",
+            _ => "an operand is a register, with optional modifiers and letters: `-r0_bx2.xyz`",
         };
         token.error(ErrorKind::MalformedOperand, expected, help)
     }
@@ -226,7 +226,7 @@ impl<'a> Parser<'a> {
                 Span::new(start.span.start, self.last_end()),
                 "a register without letters or modifiers",
                 quote(start.text),
-                "a definition gives all components: `def c0, 1, 0, 0, 0`",
+                "a definition sets all components: `def c0, 1, 0, 0, 0`",
             ));
         }
         Ok(named.register)

@@ -138,9 +138,9 @@ impl<'a> Parser<'a> {
                 format!("one of {all}"),
                 match token.text.to_ascii_lowercase().as_str() {
                     "ps_2_x" => "write the variant: ps_2_a (NV3x) or ps_2_b (R4xx)",
-                    "ps_1_0" | "ps.1.0" => "every ps_1_0 program is a ps_1_1 program",
+                    "ps_1_0" | "ps.1.0" => "write ps_1_1: every ps_1_0 program is also a ps_1_1 program",
                     "vs_1_0" | "vs.1.0" => "write vs_1_1",
-                    _ => "write the version that the program was made for, or the next lower one",
+                    _ => "write the version that the program was written for, or the next lower version",
                 },
             )),
         }

@@ -156,7 +156,9 @@ fn suffix(m: &mut Mnemonic, base: &str, part: &str, span: Span) -> Result<(), Sy
             "bias" | "bx2" | "dz" | "dw" | "db" | "da" => {
                 format!("`_{lower}` belongs on a source operand: `r0_{lower}`")
             }
-            _ => format!("write `{base}` without modifiers, or with some of them in any order: `{base}_x2_sat`"),
+            _ => format!(
+                "write `{base}` without modifiers, or with some of these modifiers in any order: `{base}_x2_sat`"
+            ),
         };
         return Err(SyntaxError::new(
             ErrorKind::UnknownInstructionModifier,
@@ -172,7 +174,7 @@ fn suffix(m: &mut Mnemonic, base: &str, part: &str, span: Span) -> Result<(), Sy
 fn unknown_opcode(token: &Token<'_>, base: &str) -> SyntaxError {
     let help = match nearest(base) {
         Some(near) => format!("did you mean `{near}`?"),
-        None if base.eq_ignore_ascii_case("dp2") => "write `dp2add` with a zero".to_owned(),
+        None if base.eq_ignore_ascii_case("dp2") => "write `dp2add` with an addend of zero".to_owned(),
         None => "no version from ps_1_1 to ps_2_b, vs_1_1 or vs_2_0 has such an instruction".to_owned(),
     };
     SyntaxError::new(

@@ -192,7 +192,7 @@ fn depth(context: &mut Context<'_>, limit: Limit, found: u32, what: &str, span: 
     // Reported only at the first level that is too deep.
     if found == allowed.value + 1 {
         let message = format!("{what} nested {found} deep, {} allows {}", allowed.owner, allowed.value);
-        let advice = "unroll, or select with cmp";
+        let advice = "unroll loops, or select values with cmp";
         context.breach(RuleId::NestingDepth, span, message).label("this level").exceeds(found, &allowed, advice);
     }
 }
@@ -284,7 +284,7 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
                     span(call.at),
                     format!("subroutine `l{}` comes before its call", call.label),
                 )
-                .help("subroutines call only later ones, so that none can call itself");
+                .help("a subroutine can only call later subroutines, so that none can call itself");
             continue;
         }
         context.jump[call.at] = Some(target);
@@ -323,7 +323,7 @@ fn static_count(context: &mut Context<'_>) {
         context.breach(RuleId::NestingDepth, *span, message).label("one too many").exceeds(
             found,
             &allowed,
-            "unroll or select",
+            "unroll loops, or select values with cmp",
         );
     }
 }

@@ -48,7 +48,7 @@ fn missing(context: &mut Context<'_>, instruction: &Instruction) {
     let name = Spelling::of(instruction.opcode).map_or(instruction.opcode.info().mnemonic, |s| s.name);
     let version = context.version;
     let message = format!("`{name}` is not an instruction of {version}");
-    let advice = "write it with the instructions that the extension has";
+    let advice = "replace it by instructions that the extension has";
     context.breach(RuleId::UnsupportedInstruction, instruction.span, message).label("this one").help(advice);
 }
 
@@ -146,9 +146,9 @@ fn reflection(context: &mut Context<'_>, instruction: &Instruction) {
     else {
         return;
     };
-    let message = "`RFL` gives x, y and z, found a write mask with w";
+    let message = "`RFL` only writes x, y and z, found a write mask with w";
     let violation = context.breach(RuleId::InvalidMask, destination.span, message);
-    violation.label("writes w too").help("write the mask out: `.xyz`");
+    violation.label("writes w too").help("write the mask `.xyz`");
 }
 
 /// V61: packed words have full precision.
@@ -220,7 +220,7 @@ fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     if let (Some(full), Some(half)) = (full, half) {
         let later = if full.span.start > half.span.start { full } else { half };
         let message = "program writes both o[COLR] and o[COLH]";
-        context.breach(RuleId::FragmentOutputs, later.span, message).help("write the colour in one precision");
+        context.breach(RuleId::FragmentOutputs, later.span, message).help("write the colour to only one of them");
     }
     let depths = all.iter().filter_map(|i| i.destination).filter(|d| d.register.file == RegisterFile::DepthOut);
     for depth in depths.filter(|d| d.mask.0 != 0b0100) {
@@ -313,6 +313,6 @@ fn indirections(context: &mut Context<'_>, all: &[&Instruction]) {
     context.breach(RuleId::Indirections, span, message).label(label).exceeds(
         count,
         &allowed,
-        "read textures together, before what depends on them",
+        "read textures together, before the instructions that depend on them",
     );
 }

@@ -26,7 +26,11 @@ pub(super) fn check(context: &mut Context<'_>) {
                 source_modifier(context, instruction, source);
             } else if source.swizzle != Swizzle::IDENTITY && source.register.file != RegisterFile::Predicate {
                 let file = source.register.file.prefix();
-                context.breach(RuleId::InvalidSwizzle, source.span, format!("a `{file}` register has a swizzle"));
+                context.breach(
+                    RuleId::InvalidSwizzle,
+                    source.span,
+                    format!("a `{file}` register cannot have a swizzle"),
+                );
             }
         }
     }
@@ -182,12 +186,15 @@ fn result_modifiers(context: &mut Context<'_>, instruction: &Instruction, destin
     if shift != 0 {
         if !version.is_ps_1_x() {
             let rule = if version.is_ps_2() { RuleId::ShiftedResult } else { RuleId::InvalidInstructionModifier };
-            add(rule, &format!("a shift, {version} has none"));
+            add(rule, &format!("a shift, but {version} has none"));
         } else if texture {
             add(RuleId::InvalidInstructionModifier, "a shift, but only arithmetic can be shifted");
         } else if !(-3..=3).contains(&shift) || version.is_ps_1_1_to_1_3() && !(-1..=2).contains(&shift) {
             let expected = if version == Version::Ps1_4 { "_x8 to _d8" } else { "_x2, _x4 or _d2" };
-            add(RuleId::InvalidInstructionModifier, &format!("a shift that {version} lacks: it has {expected}"));
+            add(
+                RuleId::InvalidInstructionModifier,
+                &format!("a shift that {version} does not have; its shifts are {expected}"),
+            );
         }
     }
     let output = matches!(destination.register.file, RegisterFile::ColorOut | RegisterFile::DepthOut);
@@ -201,7 +208,7 @@ fn result_modifiers(context: &mut Context<'_>, instruction: &Instruction, destin
         }
     }
     if destination.partial_precision && !version.is_ps_2() {
-        add(RuleId::InvalidInstructionModifier, &format!("_pp, {version} has no partial precision"));
+        add(RuleId::InvalidInstructionModifier, &format!("_pp, but {version} has no partial precision"));
     }
     if destination.centroid {
         add(RuleId::InvalidInstructionModifier, "_centroid, which belongs on a declaration");

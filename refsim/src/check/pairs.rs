@@ -69,7 +69,7 @@ fn ports(context: &mut Context<'_>, instruction: &Instruction) {
             let message =
                 format!("instruction reads {found} different `{prefix}#` registers, {version} allows {ports}");
             let violation = context.breach(RuleId::TooManyReads, instruction.span, message).figure(ports, found);
-            violation.help("copy one of them into another file with mov first");
+            violation.help("first copy one of them into another register file with mov");
         }
     }
 }

@@ -23,7 +23,7 @@ fn selects(context: &mut Context<'_>) {
         if source.register != Register::new(RegisterFile::Temp, 0) || !alpha {
             context
                 .breach(RuleId::CndCondition, source.span, "the first source of `cnd` is not `r0.a`")
-                .help("before ps_1_4 cnd compares r0.a with 0.5 and nothing else: mov the value into r0.a");
+                .help("before ps_1_4, cnd only compares r0.a with 0.5: mov the value into r0.a");
         }
     }
 }
@@ -46,7 +46,7 @@ fn counts(context: &mut Context<'_>) {
         if instruction.sources.iter().any(|s| s.register == destination.register) {
             context
                 .breach(RuleId::CmpOrDp4, instruction.span, "`cmp` writes one of its own sources")
-                .help("before ps_1_4 the destination of cmp differs from its sources");
+                .help("before ps_1_4, the destination of cmp cannot be one of its sources");
         }
     }
 }
@@ -75,7 +75,8 @@ fn sequences(context: &mut Context<'_>) {
             && source.index >= stage
         {
             let name = instruction.opcode.info().mnemonic;
-            let message = format!("`{name}` of stage {stage} reads `{source}`, expected an earlier stage");
+            let message =
+                format!("`{name}` of stage {stage} reads `{source}`, expected the result of an earlier stage");
             context.breach(RuleId::TextureChain, instruction.span, message);
         }
         let rows = match instruction.opcode {

@@ -191,7 +191,8 @@ fn stages(context: &mut Context<'_>) {
         let is_register = context.count(RegisterFile::Temp).is_some_and(|c| stage < c.value());
         if stage >= allowed.value && is_register {
             let message = format!("`texld` samples stage {stage}, {} has {} stages", allowed.owner, allowed.value);
-            let advice = "texld samples the stage with the number of its destination: load a lower register";
+            let advice = "texld samples the stage with the number of its destination register: use a register with a \
+                 lower number";
             context
                 .breach(RuleId::NoSuchRegister, instruction.span, message)
                 .label("this stage")

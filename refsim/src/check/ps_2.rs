@@ -224,11 +224,11 @@ fn dependent_reads(context: &mut Context<'_>) {
             "texture reads depend on one another over {level} levels, {} allows {}",
             allowed.owner, allowed.value
         );
-        let label = "the first read that is too deep".to_owned();
+        let label = "the first read whose chain is too long".to_owned();
         context.breach(RuleId::DependentReads, span, message).label(label).exceeds(
             level,
             &allowed,
-            "read earlier, or use a further pass",
+            "make fewer reads depend on one another, or use a further pass",
         );
     }
 }

@@ -31,8 +31,8 @@ pub(super) fn check(context: &mut Context<'_>, fog: Option<FogOption>) {
         let message = format!("program has {found} {kinds}{taken}, {} allows {}", allowed.owner, allowed.value);
         let label = format!("the {} {kind}", ordinal(free + 1));
         let advice = match limit {
-            Limit::Temporaries => "declare fewer, reuse those whose values are no longer needed",
-            Limit::BoundParameters => "bind fewer; equal constants, and numbers in one vector, count once",
+            Limit::Temporaries => "declare fewer temporaries: reuse those whose values are no longer needed",
+            Limit::BoundParameters => "bind fewer parameters: equal constants, and numbers in one vector, count once",
             _ => "pass several numbers in one attribute",
         };
         context.breach(RuleId::TooManyResources, place, message).label(label).exceeds(

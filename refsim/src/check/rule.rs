@@ -48,8 +48,8 @@ rules! {
     TextureAfterArithmetic V05 "texture instructions come before arithmetic ones in every phase (ps_1_x)";
     RepeatedPhase V06 "there is one phase marker at most";
     NoSuchRegister V07 "the version and the device have the register";
-    TooManyReads V08 "an instruction reads no more different registers of a file than the file has read ports";
-    TooManyPairReads V09 "a co-issued pair reads at most three different registers of a file";
+    TooManyReads V08 "an instruction reads no more different registers of a register file than the file has read ports";
+    TooManyPairReads V09 "a co-issued pair reads at most three different registers of a register file";
     MalformedPair V10 "a co-issued pair is one instruction writing within .rgb and one writing .a, neither of them dp4 (ps_1_x)";
     UnwrittenRead V11 "components are written before they are read; alpha is undefined after a phase marker";
     UnwrittenResult V12 "the program writes all of r0 (ps_1_x)";
@@ -84,8 +84,8 @@ rules! {
     TexKillOperand V41 "the operand of texkill is a whole r# or t# (ps_2_0 and up)";
     ScalarSource V42 "scalar instructions read one component";
     SinCosOperands V43 "sincos writes .x, .y or .xy and reads one component and two different constants";
-    Dp2AddSource V44 "dp2add adds one component";
-    RelativeAddress V45 "addresses are relative only in vertex programs, and only those of constants";
+    Dp2AddSource V44 "the addend of dp2add is one component";
+    RelativeAddress V45 "relative addresses are used only in vertex programs, and only for constants";
     InvalidSaturate V46 "frc and sincos are not saturated (ps_2_0 and up)";
     Operands V47 "the instruction has its operands, of files that it can read";
     UnwrittenPosition V48 "the program writes all of oPos (vertex)";
@@ -97,15 +97,15 @@ rules! {
     Subroutines V54 "subroutines follow the main program, end with ret and call only later ones";
     FlowOperands V55 "flow control has valid operands and is in a valid place";
     DivergentGradient V56 "gradients are not taken where fragments may diverge";
-    PredicateUse V57 "p0 is set before it is used, and predicates only what can be predicated (ps_2_a)";
+    PredicateUse V57 "p0 is set before it is used, and only instructions that can have a predicate have one (ps_2_a)";
     FogAndPointSizeMask V58 "oFog and oPts are written through .x (vertex)";
     MacroOperands V59 "instructions of several steps do not overwrite their own sources, and have the required mask";
     InvalidSuffix V60 "the instruction can have its suffixes (!!FP1.0)";
     PackedPrecision V61 "packed words are of full precision (!!FP1.0)";
     TooManyOperandReads V62 "an instruction reads one attribute and one constant at most (!!FP1.0)";
-    FragmentOutputs V63 "the program writes colour in a single precision, or writes depth, through z (OpenGL)";
+    FragmentOutputs V63 "the program writes colour, in only one precision, or depth, through z (OpenGL)";
     ImageUnitTarget V64 "an image unit is read as one kind of texture (OpenGL)";
-    RegisterWeight V65 "registers weigh 64 at most: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
+    RegisterWeight V65 "all registers together weigh at most 64: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
     Indirections V66 "chains of dependent texture reads are no longer than allowed (!!ARBfp1.0)";
     TooManyResources V67 "temporaries, parameters and attributes, used or not, fit the device (!!ARBfp1.0)";
 }

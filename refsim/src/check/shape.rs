@@ -58,7 +58,7 @@ fn constants(context: &mut Context<'_>) {
                     id: WarningId::ClampedConstant,
                     span: def.span,
                     message: format!("`{register}` has values outside -1 to 1, which are clamped"),
-                    help: "constants of ps_1_x are in -1 to 1: scale the value and undo it with _x2, _x4 or _x8",
+                    help: "constants of ps_1_x are in -1 to 1: scale the value down, then up with _x2, _x4 or _x8",
                 });
             }
         }

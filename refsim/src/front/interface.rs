@@ -10,7 +10,7 @@ pub(super) struct Translation {
     pub(super) interface: WgslInterface,
 }
 
-/// Inputs and uniforms of a fragment entry point, for a host that draws its text on a GPU.
+/// Inputs and uniforms of a fragment entry point, for a host that runs the WGSL text on a GPU.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WgslInterface {
     /// Name of the entry point.

@@ -24,9 +24,9 @@ use crate::transfer::visibility::SegmentCensus;
 const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
-      segment by segment, in linear clusters (without means), coded in 16 bits
+      compressed segment by segment in linear clusters (without means), with 16 bits per coded number
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --json --out small.npz
-      coded in fewer bits; every segment's error as JSON
+      with fewer bits per coded number; the error of every segment as JSON
 
 The whole transfer is never stored: each segment is computed, compressed and coded before the next.";
 
@@ -46,16 +46,17 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = number::whole::<u32>(1..=u32::MAX))]
     points_per_cluster: u32,
 
-    /// Representatives per cluster; at most 256 times the number of terms of the reflectance, which is how many numbers
-    /// a vertex has in a segment
+    /// Representatives per cluster; at most as many as a vertex has numbers in a segment, which is 256 times the number
+    /// of terms of the reflectance
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = number::whole::<u32>(1..=u32::MAX))]
     vectors: u32,
 
-    /// Bits per number of the representatives, and per weight
+    /// Bits of each number of a representative, and of each weight
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = number::whole::<u8>(2..=16))]
     bits: u8,
 
-    /// Store finished segments in this folder and reuse those in it; a folder of another run is refused
+    /// Store finished segments in this folder, and reuse the segments that it already holds; the folder of a different
+    /// run is refused
     #[arg(long, value_name = "FOLDER")]
     resume: Option<PathBuf>,
 
@@ -74,7 +75,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let most = 256 * file.reflectance.terms() as u64;
     if u64::from(args.vectors) > most {
         let what = format!("expected at most {most} `--vectors`, found {}", args.vectors);
-        let help = "a vertex has no more numbers in a segment, so more vectors do not help";
+        let help = "a vertex has only that many numbers in a segment, so more vectors do not reduce the error";
         return Err(Problem::usage(what, help).into());
     }
     let options = SegmentOptions {
@@ -164,7 +165,7 @@ fn findings(
     ));
     found.print(format!("time      transfer {transfer:.1} s, clusters {clusters:.1} s, coding {code:.1} s"));
     if let Some(folder) = &args.resume {
-        found.print(format!("kept      {taken} segments were finished before, in {}", folder.display()));
+        found.print(format!("kept      {taken} segments were already finished in {}", folder.display()));
     }
     written(&mut found, [("out", Some(args.out.as_path()))]);
     found

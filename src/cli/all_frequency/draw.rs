@@ -21,11 +21,11 @@ use crate::transfer::file::MeshDigest;
 /// Model, light and camera.
 #[derive(Debug, clap::Args)]
 struct LitArgs {
-    /// Visibility or coded transfer; coded transfer is drawn if there are both
+    /// A file with visibility or coded transfer; if it has both, the coded transfer is drawn
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
-    /// A file with visibility of the same model, to measure the loss of compression
+    /// A file with the visibility of the same model, to measure the error that compression adds
     #[arg(long, value_name = "X.npz")]
     original: Option<PathBuf>,
 
@@ -36,7 +36,8 @@ struct LitArgs {
     #[command(flatten)]
     picture: PictureArgs,
 
-    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not; the file names its model
+    /// A ground file that `crossbar all-frequency precompute --ground` wrote, compressed or not; it contains the path
+    /// of the ground's model
     #[arg(long, value_name = "G.npz")]
     ground: Option<PathBuf>,
 }
@@ -88,8 +89,9 @@ fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miett
 fn ground(path: &Path) -> miette::Result<LitPart> {
     let file = load_all_frequency(path, None)?;
     let Some(model) = file.model.as_ref().map(|name| path.with_file_name(name)) else {
-        let what = format!("{}: expected a ground file that names its model, found no name", path.display());
-        let help = "give the ground that `crossbar all-frequency precompute --ground` wrote, or its compressed form";
+        let what = format!("{}: expected a ground file with the path of its model, found no path", path.display());
+        let help =
+            "give the ground file that `crossbar all-frequency precompute --ground` wrote, or its compressed form";
         return Err(Problem::usage(what, help).into());
     };
     Ok(part(file, path, &model)?.0)
@@ -98,13 +100,14 @@ fn ground(path: &Path) -> miette::Result<LitPart> {
 const RENDER_EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48
-      under a clear sky with a sun: picture, a page
+      under a clear sky with a sun: a picture and a page
   crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --keep 200 --size 64x48
-      beside the uncompressed transfer, with 200 coefficients of the light
+      compared with the uncompressed transfer, with 200 coefficients of the light
   crossbar all-frequency render docs/examples/step_all.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
       from uncompressed transfer, under a red and a blue light
 
-Written to --out: index.html (self-contained), pictures, picture.exr. The host shades every pixel for its own view.";
+Written to --out: index.html (self-contained), pictures, picture.exr. The host shades every pixel for its own view \
+direction.";
 
 /// Draw a model under distant light from its transfer, compressed or not
 #[derive(Debug, clap::Args)]
@@ -134,20 +137,20 @@ impl StudyArgs for Render {
 const CARD_EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --way colors --size 64x48
-      on the Radeon 9800, with interpolated vertex colors, as the paper's authors did
+      on the Radeon 9800, with interpolated vertex colors, as in the paper
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --sweep --size 64x48
-      the error of fewer bits in representatives, weights, maps and arithmetic, and of compression
+      the error by compression, and by fewer bits in representatives, weights, maps and arithmetic
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --ground docs/examples/step_all_small.ground.npz --size 64x48
       with a ground below the model, and the model's shadow on it
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
-docs/papers/all_frequency.md explains all of it.";
+docs/papers/all_frequency.md explains these files.";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum WayArg {
-    /// Only interpolation: the host computes the colors of the vertices
+    /// The card only interpolates vertex colors, which the host computes
     Colors,
-    /// The product with the view factors, which are read from textures at each pixel
+    /// The card multiplies by the view factors, which it reads from textures at each pixel
     Products,
 }
 

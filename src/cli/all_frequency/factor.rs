@@ -63,11 +63,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE", conflicts_with = "side", conflicts_with_all = OF_MODEL)]
     table: Option<PathBuf>,
 
-    /// Roughness of cook-torrance and schlick [default: as in the paper, 0.4 and 0.2]
+    /// Roughness of cook-torrance and schlick [default: 0.4 for cook-torrance, 0.2 for schlick, as in the paper]
     #[arg(long, value_name = "R", value_parser = number::positive)]
     roughness: Option<f64>,
 
-    /// Reflectance at normal incidence; for phong, of the lobe [default: 0.5; as in the paper 0.8 for schlick]
+    /// Reflectance at normal incidence, or of the lobe for phong [default: 0.5, or 0.8 for schlick, as in the paper]
     #[arg(long, value_name = "F", value_parser = number::not_negative)]
     fresnel: Option<f64>,
 

@@ -19,9 +19,10 @@ Examples:
   crossbar all-frequency lighting --light sky:1,-1,1 --keep 800
       6,144 texels as 24 segments of Haar wavelets; how much energy 800 of the coefficients hold
   crossbar all-frequency lighting --light red-and-blue --segments 6 --keep 200 --by magnitude
-      six faces instead
+      as six segments, one per face of the cube; the 200 coefficients of largest magnitude are kept
   crossbar all-frequency lighting --light disk:1,0,2:5 --keep 40 --out light.csv --json
-      what remains of a small source, as a table of the cube's texels, which `--light light.csv` reads";
+      what 40 coefficients keep of a small light source, as a table of the cube's texels that `--light light.csv` \
+reads";
 
 /// Values of `--by`: measures of importance of coefficients.
 fn priorities() -> OneOf<TruncationPriority> {

@@ -16,7 +16,7 @@ Examples:
   crossbar all-frequency lighting --light sky:1,-1,1 --keep 800
       light as Haar wavelets, and the energy in 800 of the wavelets
   crossbar all-frequency precompute docs/examples/step.obj --out step.npz
-      what every vertex sees
+      which directions every vertex sees
   crossbar all-frequency compress docs/examples/step_all.npz --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.npz
       compresses the transfer, segment by segment, to clusters of principal components, and codes them
   crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48

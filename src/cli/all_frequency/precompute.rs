@@ -33,11 +33,12 @@ const MAX_FACTORS: u64 = 256 << 20;
 const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency precompute docs/examples/step.obj --out step.npz
-      what each vertex sees, for light of all frequencies on a diffuse surface
+      which directions each vertex sees, for light of all frequencies on a diffuse surface
   crossbar all-frequency precompute docs/examples/step.obj --ground 24 --out step.npz
       the same with a ground below the model, which `crossbar all-frequency render` and `card` draw with `--ground`
 
-The file holds 98,304 bits per vertex: `crossbar all-frequency compress` computes the transfer from them.";
+The file holds 98,304 bits of visibility per vertex, from which `crossbar all-frequency compress` computes the \
+transfer.";
 
 /// Compute what each vertex of a model sees, for light of all frequencies
 #[derive(Debug, clap::Args)]
@@ -132,7 +133,8 @@ fn write_sight(
     found.print(format!("vertices  {}, {terms} terms of reflectance", counted(vertices.len())));
     note_rays(found, &counts);
     found.print(format!(
-        "segments  {:.1} % have nonzero transfer; of 24, at least {} and on average {:.2} lie below the horizon",
+        "segments  {:.1} % have nonzero transfer; of the 24 segments, at least {} and on average {:.2} lie below a \
+         vertex's horizon",
         100.0 * census.omega(),
         census.least_below,
         census.mean_below()

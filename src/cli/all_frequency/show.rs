@@ -13,9 +13,9 @@ use crate::report::Findings;
 const EXAMPLES: &str = "\
 Examples:
   crossbar all-frequency show docs/examples/step_all_small.npz
-      what is coded, and in how many bytes
+      the coded parts, and their sizes in bytes
   crossbar all-frequency show docs/examples/step_all.npz --json
-      what the vertices see, as JSON
+      which directions the vertices see, as JSON
 
 The file is an archive of NumPy arrays: docs/npz.md lists them.";
 
@@ -53,8 +53,8 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         let (segments, clusters, bytes) = (coded.segments.len(), coded.clusters(), coded.size().total());
         let CodeOptions { representative_bits, weight_bits, .. } = coded.options;
         found.introduce(format!(
-            "coded     {} clusters in {segments} segments; {} of {} numbers are not 0; {representative_bits} bits, \
-             weights {weight_bits}; {} bytes",
+            "coded     {} clusters in {segments} segments; {} of {} numbers are not 0; {representative_bits} bits per \
+             number, {weight_bits} per weight; {} bytes",
             counted(clusters),
             counted(nonzeros),
             counted(numbers),

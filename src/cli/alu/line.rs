@@ -121,7 +121,7 @@ fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError> {
     value.filter(|_| field.len() <= digits as usize).ok_or_else(|| {
         input_error!("crossbar::alu::width" =>
             "line {line}: expected at most {digits} hexadecimal digits ({width} bits), found `{}`", found();
-            help "check that `--format` is the format of the lines")
+            help "check that `--format` is the format of the numbers in the lines")
     })
 }
 

@@ -21,9 +21,9 @@ Examples:
   echo 3C00 4000 | crossbar alu add --format fp16
       one plus two: prints 4200, which is three
   echo 5000 5000 | crossbar alu mul --format s3.12:rtz --flags
-      five times five saturates: prints 7FFF 05
+      five times five, which saturates: prints 7FFF and the flags 05
   testfloat_gen f32_mulAdd | crossbar alu mulAdd --format fp32 --verify --flags
-      Berkeley TestFloat's own vectors against this arithmetic
+      checks this arithmetic against the test vectors of Berkeley TestFloat
   echo 3F800000 42C00000 | crossbar alu quantize --format fp32 --block mxfp4
       1 and 96 with a shared scale: prints 83 0 7, which are 2^4, 0 and 6
   echo 6800 3C00 3C00 3C00 3C00 3C00 | crossbar alu dot --format fp16 --accumulator fp32
@@ -59,7 +59,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "F", required_unless_present_any = ["device", "unit"])]
     format: Option<Format>,
 
-    /// A device instead of a format: computes its instruction of this name, with its measured unit or its rules
+    /// A device instead of a format: computes the device's instruction of this name, with its measured unit or its
+    /// rules
     #[arg(long, value_name = "D", conflicts_with = "format")]
     device: Option<String>,
 
@@ -95,7 +96,7 @@ pub(super) struct Args {
     ///
     /// sequential: ((x + y) + z) + w, each step rounded. tree: (x + y) + (z + w), each step rounded. exact: the exact
     /// sum, rounded once into the accumulator. aligned:F, for floats: one adder for all rounded products
-    /// drops bits that are more than F (0 to 28) below the largest exponent, and rounds the sum once.
+    /// drops bits that are more than F places (0 to 28) below the largest exponent, and rounds the sum once.
     #[arg(long, value_name = "ORDER", value_parser = summation)]
     summation: Option<DotOrder>,
 

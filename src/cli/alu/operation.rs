@@ -44,7 +44,7 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Table(Op::Div), "div", "a / b, rounded once"),
     (AluOperation::Table(Op::Sqrt), "sqrt", "square root"),
     (AluOperation::Table(Op::FusedMad), "mulAdd", "a * b + c, fused: rounded once"),
-    (AluOperation::Table(Op::Equal), "eq", "a = b, as 0 or 1; a quiet NaN is valid"),
+    (AluOperation::Table(Op::Equal), "eq", "a = b, as 0 or 1; only a signalling NaN is invalid"),
     (AluOperation::Table(Op::LessEqual), "le", "a <= b, as 0 or 1; any NaN is invalid"),
     (AluOperation::Table(Op::Less), "lt", "a < b, as 0 or 1; any NaN is invalid"),
     (AluOperation::Table(Op::Min), "min", "the smaller operand"),
@@ -82,8 +82,16 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Logp, "logp", "LOG of one word: 4 components (vertex units)"),
     (AluOperation::Lit, "lit", "lighting of x, y, w: 4 components (vertex units)"),
     (AluOperation::Dot, "dot", "a b + c d + ... of 1 to 32 pairs, in the format of --accumulator"),
-    (AluOperation::Quantize, "quantize", "from 1 to 32 numbers, a block of format --block: scale, then elements"),
-    (AluOperation::Dequantize, "dequantize", "the numbers of a block of format --block (scale, then elements)"),
+    (
+        AluOperation::Quantize,
+        "quantize",
+        "from 1 to 32 numbers, a block in the format of --block: first its scale, then its elements",
+    ),
+    (
+        AluOperation::Dequantize,
+        "dequantize",
+        "the numbers of a block in the format of --block (first its scale, then its elements)",
+    ),
 ];
 
 impl AluOperation {

@@ -23,8 +23,8 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx --json
       the figures as JSON
 
-The values must be multiples of a single power of two (2^-30 or larger), and the factors must fit into 32 bits. The \
-sum of the biclusters equals the matrix bit for bit.";
+The values must be integer multiples of a single power of two (2^-30 or larger); these integers must fit into 32 bits. \
+The sum of the biclusters equals the matrix bit for bit.";
 
 /// Split any sparse matrix into biclusters, without loss: its product with a vector takes fewer operations and bytes
 #[derive(Debug, clap::Args)]

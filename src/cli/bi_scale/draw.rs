@@ -28,7 +28,7 @@ use crate::transfer::Vertices;
 #[derive(Debug, clap::Args)]
 struct TextureArgs {
     /// The bidirectional texture of a material, or of all materials without their own texture: a file (.npy) as
-    /// `crossbar bi-scale texture` writes it, or a patch: bumps, mail, tiles, bricks, weave
+    /// `crossbar bi-scale texture` writes it, or the name of a patch: bumps, mail, tiles, bricks, weave
     #[arg(long, required = true, value_name = "[MATERIAL=]B.npy")]
     texture: Vec<TextureArg>,
 
@@ -36,11 +36,11 @@ struct TextureArgs {
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
     repeat: f64,
 
-    /// Texels per side of textures of patches [default: 64]
+    /// Texels per side, for textures of named patches [default: 64]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=1024))]
     texture_size: Option<u32>,
 
-    /// View directions per side of the square, for textures of patches [default: 12]
+    /// View directions per side of the square, for textures of named patches [default: 12]
     #[arg(long, value_name = "K", value_parser = number::whole::<u8>(1..=64))]
     texture_views: Option<u8>,
 
@@ -93,12 +93,16 @@ impl TextureArgs {
             let of_patches =
                 [("--texture-size", self.texture_size.is_some()), ("--texture-views", self.texture_views.is_some())];
             let help = "remove the option: a file has its own size";
-            given::refuse(of_patches, "textures of patches, found files only", help)?;
+            given::refuse(of_patches, "textures of named patches, found texture files only", help)?;
         }
         let file = load_bi_scale(path)?;
         let Some(meaning) = file.meaning else {
-            let what = format!("{}: expected transfer of a mesh, found another matrix", path.display());
-            return Err(Problem::usage(what, "give output of `crossbar bi-scale precompute`, or its biclusters").into());
+            let what = format!("{}: expected transfer of a mesh, found a matrix without a mesh", path.display());
+            return Err(Problem::usage(
+                what,
+                "give a file that `crossbar bi-scale precompute` wrote, or the biclusters of such a file",
+            )
+            .into());
         };
         let (model, vertices, _) = model_of(path, Some(meaning.mesh), name, self.crease)?;
         let light = LocalDirections::new(meaning.side as usize)
@@ -170,7 +174,8 @@ Examples:
   crossbar bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --repeat 4 --texture-size 8 --texture-views 4 --reference --size 8x6
       compared with a ray-traced picture, with the error by cause: takes milliseconds per pixel
 
-Written to --out: index.html (self-contained), pictures, picture.exr. Local light is interpolated over triangles, on the host.";
+Written to --out: index.html (self-contained), pictures, picture.exr. The host interpolates local light over \
+triangles.";
 
 /// Draw a model under distant light from its transfer and bidirectional textures
 #[derive(Debug, clap::Args)]
@@ -218,12 +223,12 @@ impl StudyArgs for Render {
 const CARD_EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --repeat 4 --size 64x48
-      on the GeForce GTX 280: light times biclusters, then a bidirectional texture pass by pass
+      on the GeForce GTX 280: light times biclusters, then the bidirectional texture, in several passes
   crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --sweep --size 64x48
-      the error of coarser light, local light, textures and targets, one at a time
+      the error of coarser light, local light, textures and targets, changed one at a time
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
-docs/papers/bi_scale.md explains all of it.";
+docs/papers/bi_scale.md explains these files.";
 
 /// Draw a model under distant light on an emulated card, from biclusters and bidirectional textures
 #[derive(Debug, clap::Args)]

@@ -23,9 +23,9 @@ const LOG2_SAMPLES: u32 = 1;
 const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale precompute docs/examples/step.obj --directions 8 --out step.npz
-      which light texels each vertex sees, and from which of its 64 local directions
+      which light texels each vertex sees, in each of its 64 local directions
   crossbar bi-scale precompute docs/examples/court.obj --directions 4 --crease 40 --out court.npz
-      with normals that are smooth over edges up to 40 degrees";
+      with normals that are smooth across edges of up to 40 degrees";
 
 /// Compute which light texels each vertex of a model sees, by local direction: a sparse matrix
 #[derive(Debug, clap::Args)]

@@ -104,7 +104,9 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let texels = counted(bytes / 12);
     found.print(format!("samples   {views} views x {lights} directions of light, {texels} texels"));
     let [red, green, blue] = mean.map(|mean| format!("{mean:.3}"));
-    found.print(format!("mean      {red}, {green}, {blue} of uniform light is reflected, over all texels and views"));
+    found.print(format!(
+        "mean      {red}, {green}, {blue} of uniform light is reflected, on average over all texels and views"
+    ));
     found.print(format!("bytes     {} as written; {} with 8 bits per channel", counted(bytes), counted(bytes / 4)));
     written(&mut found, [("out", Some(args.out.as_path())), ("sheet", args.sheet.as_deref())]);
     Ok(found)
@@ -142,7 +144,7 @@ fn heights(path: &Path) -> miette::Result<HeightField> {
     let rows = heights.len() / columns.max(1);
     if rows != columns {
         let what = format!("{}: expected as many rows as columns, found {columns} x {rows}", path.display());
-        return Err(Problem::usage(what, "cut a square out of it").into());
+        return Err(Problem::usage(what, "cut a square out of the table").into());
     }
     Ok(HeightField::new(columns, &heights).map_err(no_heights)?)
 }

@@ -27,7 +27,7 @@ Examples:
   crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --out small.npz
       your own signal, with a line of numbers per point
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --out small.npz
-      draws fewer triangles in two clusters, for at most 5 % more error
+      moves vertices so that fewer triangles lie in two clusters, for at most 5 % more error
 
 CSV and NumPy arrays hold a row per point. The output file holds the clusters and their provenance.";
 
@@ -117,9 +117,10 @@ impl Args {
         let (clusters, vectors) = (self.clusters.unwrap_or(256), self.vectors.unwrap_or(most.min(8)));
         if vectors > most {
             let what = format!(
-                "expected at most {most} `--vectors`, the lesser of points and of numbers per point, found {vectors}"
+                "expected at most {most} `--vectors` (the number of points, or of numbers per point if that is \
+                 smaller), found {vectors}"
             );
-            return Err(Problem::usage(what, "more vectors do not help"));
+            return Err(Problem::usage(what, "more vectors do not reduce the error"));
         }
         Ok(CpcaOptions {
             clusters: clusters as usize,

@@ -15,21 +15,22 @@ use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
 const RENDER_EXAMPLES: &str = "\
 Examples:
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
-      under a clear sky with a sun: picture, clusters, a page
+      under a clear sky with a sun: a picture, the clusters and a page
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --original docs/examples/step.npz --light disk:1,0,2:20 --size 64x48
-      beside the uncompressed transfer: differences, and the error of every vertex
+      compared with the uncompressed transfer: differences, and the error of every vertex
   crossbar cpca render docs/examples/step.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
       from uncompressed transfer
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --light scene:cornell-box@0.28,0.28,0.4 --size 64x48
-      under the light at a place in a room, path-traced
+      under the path-traced light at a place in a room
 
-Written to --out: index.html (self-contained), pictures, picture.exr. Vertex radiance is interpolated over triangles, on the host.";
+Written to --out: index.html (self-contained), pictures, picture.exr. The host interpolates vertex radiance over \
+triangles.";
 
 /// Draw a model under distant light from its transfer, compressed or not
 #[derive(Debug, clap::Args)]
 #[command(after_help = RENDER_EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Render {
-    /// Transfer or clusters; clusters are drawn if there are both
+    /// A file with transfer or clusters; if it has both, the clusters are drawn
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
@@ -90,14 +91,14 @@ fn light_order(file: &PrtFile) -> Result<usize, Problem> {
 const CARD_EXAMPLES: &str = "\
 Examples:
   crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
-      on the Radeon 9700: picture, its difference from the host's, modelled time of a frame
+      on the Radeon 9700: the picture, its difference from the host's picture, and the modelled time of a frame
   crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --device r350 --size 64x48
       on the Radeon 9800
   crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --sweep --size 64x48
-      the error of coarser weights, maps, arithmetic and targets, one at a time
+      the error of coarser weights, maps, arithmetic and targets, changed one at a time
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv. \
-docs/papers/cpca.md explains all of it.";
+docs/papers/cpca.md explains these files.";
 
 /// Draw a model under distant light on an emulated card, from clusters
 #[derive(Debug, clap::Args)]

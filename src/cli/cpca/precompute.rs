@@ -27,9 +27,9 @@ Examples:
   crossbar cpca precompute docs/examples/step.obj --out step.npz
       diffuse transfer with shadows, for light of order 5 and the materials of the file
   crossbar cpca precompute docs/examples/step.obj --kind glossy --rows 24 --brdf phong:0.2,0.6,20 --bounces 2 --out step.npz
-      matrices of 24 x 25 with two bounces, one glossy material
+      matrices of 24 x 25 numbers, with two bounces and one glossy material
   crossbar cpca precompute transfer-bird --kind glossy --brdf ward:0.1,0.3,0.1,0.4 --tangents texture --out bird.npz
-      an anisotropic material along the texture; the stand-in for the paper's bird, about a minute
+      the stand-in for the paper's bird, with an anisotropic material along the texture; takes about a minute
   crossbar cpca precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.npz
       light that scatters below the surface, in three channels
 
@@ -61,12 +61,12 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "KIND", default_value = "diffuse")]
     kind: KindArg,
 
-    /// Order n of the light: n x n functions
+    /// Order n of the light, which has n x n functions
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = number::whole::<u8>(1..=10))]
     order: u8,
 
     /// Number of functions of exit radiance, for --kind glossy: a square such as 16 or 25, or one less than a square
-    /// (such as 24), which omits l = 1, m = 0 [default: 25]
+    /// (such as 24), which omits the function l = 1, m = 0 [default: 25]
     #[arg(long, value_name = "COUNT", value_parser = rows)]
     rows: Option<ExitBasis>,
 
@@ -143,7 +143,8 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         findings.field("off_host", json!({ "coefficients": differing, "relative_rms": off }));
         let [differing, off] = [counted(differing as usize), measured(off)];
         findings.print(format!(
-            "engine: {differing} coefficients differ from those by rays of the host, with a relative RMS of {off}"
+            "engine: {differing} coefficients differ from those by the host's rays; the relative RMS difference is \
+             {off}"
         ));
     }
     Ok(findings)
@@ -201,7 +202,10 @@ fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {
     found.print(format!("rays      {rays}: {directions} directions per vertex; {traced} traced, {blocked} blocked"));
     for (channel, shares) in made.bounces.iter().enumerate().filter(|(_, shares)| !shares.is_empty()) {
         let shares: Vec<String> = shares.iter().map(|share| measured(*share)).collect();
-        found.print(format!("bounces   channel {channel}: {} of the direct transfer (RMS)", shares.join(", ")));
+        found.print(format!(
+            "bounces   channel {channel}: RMS of {} relative to the direct transfer",
+            shares.join(", ")
+        ));
     }
     let more = [
         (buried.len(), "vertices lie inside a solid: all their rays are blocked, mostly from behind"),

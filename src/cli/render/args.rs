@@ -105,7 +105,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
-    /// Maximum number of surfaces on a path from lamp to eye; not for eye and environment [default: 8]
+    /// Maximum number of surfaces on a path from lamp to eye; not for the renderers eye and environment [default: 8]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=1024))]
     pub(super) depth: Option<u32>,
 
@@ -117,7 +117,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "NAME")]
     pub(super) view: Option<String>,
 
-    /// Exposure: a factor on radiance; in picture.png, 1 is white [default: 1]
+    /// Exposure: radiance is multiplied by this factor; in picture.png, 1 is white [default: 1]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
 

@@ -25,9 +25,8 @@ Examples:
   crossbar run docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3
       a fragment shader in WGSL, on a single-precision device (needs the feature wgsl)
 
-docs/cases.md describes the case format. Unsigned targets are written as PNG, all others and the depth buffer as \
-EXR. The counts measure the work, in instruction slots and bytes; `crossbar timeline` says how long a card \
-takes.
+docs/cases.md describes the case format. Unsigned targets are written as PNG, all others and the depth buffer as EXR. \
+The counts measure the work, in instruction slots and bytes; `crossbar timeline` models how long a card takes.
 
 Exit codes: 0 done, 1 a probe did not find the expected value, 2 the case cannot be run.";
 
@@ -51,7 +50,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "scalar")]
     executor: DeviceExecutor,
 
-    /// Show what every instruction writes at a pixel: column and row, counted from 0 at the top left
+    /// Show what every instruction writes at the pixel in this column and row, counted from 0 at the top left
     #[arg(long, value_name = "X,Y", value_parser = pixel::parse, allow_hyphen_values = true)]
     trace: Option<[u32; 2]>,
 }

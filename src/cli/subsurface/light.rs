@@ -67,7 +67,9 @@ impl FromStr for LightArg {
 pub(super) fn coefficient(text: &str) -> Result<[f64; 3], String> {
     let one = || text.trim().parse().ok().filter(|value: &f64| value.is_finite()).map(|value| [value; 3]);
     let found = one().or_else(|| three_finite(text)).filter(|values| values.iter().all(|&value| value >= 0.0));
-    found.ok_or_else(|| format!("expected a number per mm of at least 0, or three as R,G,B, found `{text}`"))
+    found.ok_or_else(|| {
+        format!("expected a coefficient of at least 0 per mm, or three coefficients as R,G,B, found `{text}`")
+    })
 }
 
 /// The requested light; by default, a white light above and beside the eye.

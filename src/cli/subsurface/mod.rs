@@ -21,18 +21,18 @@ Examples:
   crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --all-pairs yes
       a stand-in for the paper's head with 16 fixed links per texel, compared with all pairs of texels, as one page
   crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice fixed --choice adaptive --links 4,16,64 --channels rgb --all-pairs yes
-      both choices of links, and how the error falls with their number
+      both choices of links, and how the error falls with the number of links
   crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32
-      the coefficients of the paper's Figure 7, in every format of map and links
+      the coefficients of the paper's Figure 7, with every format of the map and of the links
   crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light ambient:0.1,0.1,0.2
-      a lamp and a sky
+      a lamp, and ambient light as a sky
   crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20
       an environment map with shadows, and marble with another index of refraction
 
 Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of \
 every vertex of the model, for every variant), study.json, angles.csv (errors by angle from the light; only with all \
 pairs and a directional light), timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, \
-pictures. docs/papers/subsurface.md explains all of it.";
+pictures. docs/papers/subsurface.md explains these files.";
 
 /// The default index of refraction for coefficients given on the command line.
 const ETA: f64 = 1.3;
@@ -68,7 +68,8 @@ pub(super) struct Args {
     /// ambient:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated. Or one environment map,
     /// with shadows: a lat-long, angular-probe, cube-cross or cube-strip picture, a table of a cube's texels (.csv) or
     /// of small sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun),
-    /// red-and-blue or scene:SCENE@X,Y,Z (as seen from a place in a scene) [default: white, from beside the camera]
+    /// red-and-blue or scene:SCENE@X,Y,Z (as seen from a place in a scene) [default: a white light above and beside the
+    /// camera]
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Vec<LightArg>,
 

@@ -24,14 +24,15 @@ Examples:
   crossbar timeline fixtures/cases/modulate.toml
       both timing models of a case: what each draw costs, what each unit does, and the critical path
   crossbar timeline --eye-rays 64x64 --device r200 --readback async --double-buffer --perfetto out.json
-      the Ray Engine's crossbar on the teapot, as a trace for https://ui.perfetto.dev or chrome://tracing
+      the Ray Engine's intersection passes on the teapot, as a trace for https://ui.perfetto.dev or chrome://tracing
   crossbar timeline fixtures/cases/modulate.toml --sensitivity
       also the effect on the total if a guessed figure is halved or doubled
 
-The model `rates` has a fill rate and the rates of the bus (equation 11 of the Ray Engine paper); its commands are \
-free. The model `pipeline` has clocks of the units, memory traffic, latencies and the host's cost of a command. Both \
-models time the same log of events, which is the same for every executor. With `--readback async`, the host waits for \
-no read-back, so the time is a lower bound. The trace shows `pipeline`. docs/timing.md explains all of it.
+The model `rates` has a fill rate and the rates of the bus (equation 11 of the Ray Engine paper); its commands take no \
+time. The model `pipeline` includes the clocks of the units, memory traffic, latencies and the host's time per \
+command. Both models time the same log of events, which is the same for every executor. With `--readback async`, the \
+host waits for no read-back, so the time is a lower bound. The trace shows the model `pipeline`. docs/timing.md \
+explains both models.
 
 Exit codes: 0 done, 2 the case cannot be run, or the device has no timing.";
 
@@ -51,7 +52,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
-    /// Whether the host waits for read-backs [default: as in the run]
+    /// Whether the host waits for read-backs [default: as it did in the run]
     #[arg(long, value_name = "MODE", value_parser = readback())]
     pub(super) readback: Option<ReadBackMode>,
 

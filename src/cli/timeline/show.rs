@@ -43,7 +43,9 @@ pub(super) fn findings(args: &Args, run: &CardRun, timed: &[TimedLog]) -> Findin
         }
         if one.replay.uncosted > 0 {
             let (name, operations) = (one.name(), one.replay.uncosted);
-            found.print(format!("{name}: {operations} operations of the host cost nothing: they are not calibrated"));
+            found.print(format!(
+                "{name}: {operations} operations of the host take no time, because they are not calibrated"
+            ));
         }
     }
     found.table(FoundTable::from(totals(run, timed)).field("totals"));
@@ -196,7 +198,7 @@ fn shares(timed: &TimedLog) -> Table {
 fn guesses(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
     let headings = ["guess", "value", "halved", "halved %", "doubled", "doubled %"];
-    let mut table = timed.table("guessed figures: the total with half and with twice the value", &headings);
+    let mut table = timed.table("guessed figures: the total time with half and with twice the value", &headings);
     for row in &timed.sensitivity {
         let (halved, doubled) = (row.halved, row.doubled);
         table.push([

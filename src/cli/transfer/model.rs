@@ -90,7 +90,10 @@ pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, m
     found.fields(json!({ "unused_vertices": vertices.unused, "replaced_tangents": vertices.replaced_tangents }));
     let of_model = [
         (vertices.unused, "vertices of the model belong to no triangle and were left out"),
-        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got an arbitrary tangent"),
+        (
+            vertices.replaced_tangents.len(),
+            "vertices had a tangent parallel to their normal and got an arbitrary tangent",
+        ),
     ];
     for (count, what) in of_model.iter().chain(more).filter(|(count, _)| *count > 0) {
         found.print(format!("note      {} {what}", counted(*count)));

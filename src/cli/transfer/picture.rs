@@ -30,8 +30,8 @@ pub(in crate::cli) struct PictureArgs {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// Exposure: a factor on radiance; in pictures, 1 is white [default: automatic, the mean of the model is 18 %
-    /// grey]
+    /// Exposure: radiance is multiplied by this factor; in pictures, 1 is white [default: automatic, so that the mean
+    /// of the model is 18 % grey]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     exposure: Option<f64>,
 }
@@ -55,7 +55,7 @@ impl PictureArgs {
 /// The card, and the option to vary its settings.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct OnCardArgs {
-    /// Vary number formats, maps and targets, one at a time, and show the error of each
+    /// Vary number formats, maps and targets, one at a time, and show the error of each change
     #[arg(long)]
     sweep: bool,
 

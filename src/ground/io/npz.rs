@@ -159,7 +159,7 @@ impl<'a> NpzWriter<'a> {
         Self { zip: ZipWriter::new_stream(out) }
     }
 
-    /// Writes bytes as an array of one axis.
+    /// Writes bytes as a one-dimensional array.
     pub fn bytes(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
         self.put(name, ('u', 1), &[bytes.len()], bytes.iter().map(|&byte| byte.into()))
     }

@@ -69,12 +69,12 @@ impl Binder<'_> {
                 Ok((self.named(&Spanned::new(format.span(), name))?, Some(version)))
             }
             (Some(_), Some(model)) => {
-                let help = "keep `device`, or `shader_model` and `format`: a device knows its versions";
+                let help = "keep `device`, or `shader_model` and `format`: a device has its own shader versions";
                 Err(self.place.wrong(model.span(), "both `device` and `shader_model`", help))
             }
             (None, None) => {
                 let help = "add `device = \"r200\"`, or `shader_model = \"ps_1_4\"` and `format = \"s3.12\"`";
-                Err(self.place.wrong(0..0, "the case names no device", help))
+                Err(self.place.wrong(0..0, "the case has no device", help))
             }
         }
     }

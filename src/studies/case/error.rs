@@ -44,7 +44,10 @@ pub enum CaseError {
         span: Option<SourceSpan>,
     },
     #[error("the case cannot be drawn: {0}")]
-    #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
+    #[diagnostic(
+        code(crossbar::case::draw),
+        help("change the case, or choose a device that can draw it: `crossbar devices`")
+    )]
     Draw(Box<MachineError>),
     #[error("the case cannot be drawn: {error}")]
     #[diagnostic(code(crossbar::case::steps), help("{help}"))]

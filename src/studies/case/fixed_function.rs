@@ -129,7 +129,7 @@ impl Binder<'_> {
         let name = key.get_ref();
         register(&format!("#{name}"), count).ok_or_else(|| {
             let message = format!("expected a number from 0 to {}, found `{name}`", count - 1);
-            self.place.wrong(key.span(), message, "lights, texture units and program matrices are numbered")
+            self.place.wrong(key.span(), message, "lights, texture units and program matrices are numbered from 0")
         })
     }
 
@@ -143,7 +143,7 @@ impl Binder<'_> {
             let degrees = cutoff.get_ref().double();
             if !(0.0..=90.0).contains(&degrees) && degrees != 180.0 {
                 let message = format!("expected a spot cutoff from 0 to 90 degrees, or 180, found {degrees}");
-                return Err(self.place.wrong(cutoff.span(), message, "180 is a light without a spot"));
+                return Err(self.place.wrong(cutoff.span(), message, "180 means a light that is not a spotlight"));
             }
             light.spot_cutoff = cutoff.get_ref().single();
         }

@@ -256,7 +256,7 @@ impl Binder<'_> {
 
     /// Attaches a position in the case to an error of the card.
     fn accepted<T>(&self, answer: Result<T, MachineError>, span: std::ops::Range<usize>) -> Result<T, CaseError> {
-        let help = "change the case, or choose a device that can: `crossbar devices` lists them";
+        let help = "change the case, or choose a device that can draw it: `crossbar devices` lists the devices";
         answer.map_err(|error| self.place.wrong(span, error.to_string(), help))
     }
 

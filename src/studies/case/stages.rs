@@ -53,7 +53,11 @@ pub(super) fn project(
     }
     let Some(stage) = projections.get_mut(slot as usize) else {
         let message = format!("expected a stage from 0 to {}, found slot {slot}", BUMP_STAGES - 1);
-        return Err(binder.place.wrong(projected.span(), message, "only stages can be projected"));
+        return Err(binder.place.wrong(
+            projected.span(),
+            message,
+            "only a texture in the slot of a stage can be projected",
+        ));
     };
     *stage = *projected.get_ref();
     Ok(())

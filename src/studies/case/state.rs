@@ -68,7 +68,7 @@ pub(super) fn texel_format(
 ) -> Result<TexelFormat, CaseError> {
     name.parse().map_err(|error: refsim::texture::TextureError| {
         let meant = did_you_mean(name, TexelFormat::ALL.iter().map(|format| format.name()));
-        let help = format!("{meant}`crossbar devices NAME` lists those that a device has");
+        let help = format!("{meant}`crossbar devices NAME` lists the formats that a device has");
         binder.place.wrong(span, error.to_string(), help)
     })
 }
@@ -109,7 +109,7 @@ fn fraction(binder: &Binder<'_>, number: &Spanned<Number>, what: &str) -> Result
         return Ok(number.get_ref().single());
     }
     let message = format!("expected {what} from 0 to 1, found {value}");
-    Err(binder.place.wrong(number.span(), message, "the card accepts no other value"))
+    Err(binder.place.wrong(number.span(), message, "a card accepts no value outside this range"))
 }
 
 pub(super) fn alpha(binder: &Binder<'_>, alpha: &schema::Alpha) -> Result<AlphaTest, CaseError> {
@@ -163,7 +163,7 @@ pub(super) fn probes(
             let span = written.tolerance.as_ref().map_or(probe.span(), Spanned::span);
             return Err(binder.place.wrong(
                 span,
-                "expected a tolerance of 0 or more",
+                "expected a tolerance of at least 0",
                 "remove `tolerance` for a tolerance of 0",
             ));
         }

@@ -157,7 +157,11 @@ fn fill(
     let found = texels.get_ref().len();
     if found != expected {
         let message = format!("expected {expected} texels in level {level}, found {found}");
-        return Err(binder.place.wrong(texels.span(), message, "each level has half the sides of the previous level"));
+        return Err(binder.place.wrong(
+            texels.span(),
+            message,
+            "each level has half the side lengths of the previous level",
+        ));
     }
     let mut values = texels.get_ref().iter();
     for slice in 0..extent.slices {
@@ -202,7 +206,7 @@ fn from_file(
     let wrong = |message: String, help: &str| binder.place.wrong(file.span(), message, help);
     if matches!(written.kind, TextureKind::Cube | TextureKind::Volume) || !listed_levels(written).is_empty() {
         let help = "list `texels` for cubes, volumes and mip maps";
-        return Err(wrong("a picture makes a 1d, 2d or rectangle texture of one level".to_owned(), help));
+        return Err(wrong("a picture makes a 1d, 2d or rectangle texture with one level".to_owned(), help));
     }
     let bytes = read_limited(&path, MAX_BYTES)
         .map_err(|source| binder.place.unreadable(file.span(), path.clone(), source))?

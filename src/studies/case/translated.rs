@@ -94,7 +94,7 @@ impl Binder<'_> {
             "{of} `[[texture]]`, `slot = {slot}`, `format = \"rgba8\"` and `file = \"picture.png\"` (docs/cases.md); \
              slots count the textures of the text from 0"
         );
-        let message = format!("this reads the texture of slot {slot}, which the case does not have");
+        let message = format!("this expression reads the texture of slot {slot}, which the case does not have");
         Err(CaseText(text.named_source()).wrong(span.start as usize..span.end as usize, message, help))
     }
 }

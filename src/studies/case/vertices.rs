@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
             vertex.texcoords[set] = bits;
         } else if name != "fog" {
             let message = format!("expected position, v0, v1, t0 to t7 or fog, found `{name}`");
-            let help = "without [vertex], the pixel program gets the vertices";
+            let help = "without [vertex], the vertices give the pixel program's inputs";
             return Err(self.binder.place.wrong(value.span(), message, help));
         } else if !self.pixel_reads_fog {
             let message = "the vertex has `fog`, but the pixel program reads no fog coordinate";

@@ -40,7 +40,8 @@ pub struct CasterOptions {
     #[arg(long, value_name = "F")]
     caster_format: Vec<String>,
 
-    /// Octree of the engine: cells of more than TRIANGLES are divided, down to DEPTH, at most 20 [default: 8,10]
+    /// Octree of the engine: cells with more than TRIANGLES triangles are divided, down to level DEPTH, at most 20
+    /// [default: 8,10]
     #[arg(long, value_name = "TRIANGLES,DEPTH", value_parser = pair)]
     octree: Option<[u32; 2]>,
 
@@ -52,7 +53,7 @@ pub struct CasterOptions {
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=65536))]
     pass_rays: Option<u32>,
 
-    /// When the host takes the results of a pass: sync (the host waits), async:N (N passes in flight), free (passes
+    /// When the host reads the results of a pass: sync (the host waits), async:N (N passes in flight), free (passes
     /// take no time) [default: sync]
     #[arg(long, value_name = "MODE", value_parser = readback)]
     readback: Option<Readback>,
@@ -134,7 +135,7 @@ impl CasterOptions {
             parameters.triangles = least as usize..=most as usize;
         }
         if parameters.octree.most_depth > 20 || parameters.triangles.is_empty() {
-            let what = "expected a depth of `--octree` of at most 20, and LEAST of `--pass-triangles` not above MOST";
+            let what = "expected a depth of at most 20 in `--octree`, and LEAST not above MOST in `--pass-triangles`";
             return Err(StudyError::usage(what, "write for example `--octree 8,10 --pass-triangles 5,15`"));
         }
         parameters.rays = pass_rays.map_or(parameters.rays, |rays| rays as usize);
@@ -335,7 +336,7 @@ impl CastRecord {
                     "rays_differing": differing, "card_s": card }),
         );
         found.print(format!(
-            "engine: {} % of rays met the card, in {} passes with {} tests; {} tests on the host",
+            "engine: {} % of the rays were tested on the card, in {} passes with {} tests; {} tests on the host",
             shown(100.0 * counts.share_on_card(), Quantity::Percent),
             count(counts.passes),
             count(counts.pass_tests),

@@ -18,7 +18,7 @@ use crate::linalg::Matrix;
 pub enum Packing {
     /// One element per texel, red, green and blue at once: three systems.
     Rgb,
-    /// Four elements per texel, one channel after the other.
+    /// Four elements per texel, all of one channel; each channel is a separate system.
     Luminance,
 }
 

@@ -30,8 +30,8 @@ pub(crate) struct IeeeLane<const PATH: u8> {
     general: FloatLane<DOUBLE, EVEN>,
     /// Host bits of the smallest normal number; as integers they compare faster than as floats.
     lowest: (u32, u64),
-    /// Pivot minus the binade, in exponent bits. The pivot is 1.5 times the number whose last place is the format's
-    /// unit.
+    /// Bit pattern of the pivot minus that of the binade's power of two, as integers. The pivot is 1.5 times the number
+    /// whose last place is the format's unit.
     pivot: (u32, u64),
     /// Factor by which exactly the numbers above the format's largest overflow to infinity; `shrink` is its reciprocal.
     stretch: (f32, f64),

@@ -31,8 +31,8 @@ macro_rules! rounder {
         pub(crate) struct $name {
             /// Exponent bits of the smallest normal number: below it the unit in the last place stays the same.
             lowest: $bits,
-            /// Pivot minus the binade, in exponent bits. The pivot is 1.5 times the number whose last place is the
-            /// format's unit.
+            /// Bit pattern of the pivot minus that of the binade's power of two, as integers. The pivot is 1.5 times
+            /// the number whose last place is the format's unit.
             pivot: $bits,
             /// The format's unit in the last place, relative to the binade's power of two.
             unit: $float,

@@ -34,8 +34,8 @@ pub struct AlignedSum {
     pub top: i32,
 }
 
-/// The exact sum of addends, each truncated to `bits` bits below the largest exponent. The largest exponent is at least
-/// `least`, if given. The sum is not rounded; the caller rounds or cuts it.
+/// The exact sum of addends, each truncated to `bits` bits below the largest exponent. If `least` is given and exceeds
+/// the largest exponent, it takes its place. The sum is not rounded; the caller rounds or cuts it.
 ///
 /// `bits` is at most 60, so that 2^32 addends cannot overflow. Without addends and without `least` the sum is 0, and
 /// the exponent too.

@@ -92,7 +92,7 @@ impl BlockFormat {
     /// largest magnitude, `2^E` the largest power of two of an element. If all numbers are zero it is the smallest
     /// scale. Each number divided by the scale is rounded once, to nearest even; a quotient above the range becomes the
     /// largest element (specification 6.3). The specification leaves infinities and NaN open: a block that contains one
-    /// has the scale NaN, zero elements, and raises `INVALID`.
+    /// gets the scale NaN and elements of 0, and raises `INVALID`.
     pub fn quantize(self, from: &Format, numbers: &[u32]) -> Block {
         let values: Vec<Unpacked> = numbers.iter().map(|&bits| unpack(from, bits)).collect();
         let mut largest = None;

@@ -318,7 +318,7 @@ impl<'a> Parser<'a> {
             }
             _ => Err(unknown(
                 token,
-                "a temporary, fragment.*, program.*, state.*, a constant or a name of one",
+                "a temporary, fragment.*, program.*, state.*, a constant or a declared name",
                 "declare names with TEMP, ATTRIB or PARAM before their first use",
             )),
         }

@@ -10,7 +10,7 @@ use crate::isa::{
     StateMatrix,
 };
 
-const HELP: &str = "state is for example state.light[0].position, state.fog.color or state.matrix.mvp.row[0]";
+const HELP: &str = "write for example state.light[0].position, state.fog.color or state.matrix.mvp.row[0]";
 
 impl<'a> Parser<'a> {
     /// Parses one item of state, which has four numbers.

@@ -236,7 +236,11 @@ impl<'a> Parser<'a> {
             "COL1" => Register::new(RegisterFile::Input, 1),
             _ => {
                 let number = operand::numbered(token, "TEX", 7).unwrap_or_else(|| {
-                    Err(unknown(token, "WPOS, COL0, COL1, FOGC or TEX0 to TEX7", "these are attributes"))
+                    Err(unknown(
+                        token,
+                        "WPOS, COL0, COL1, FOGC or TEX0 to TEX7",
+                        "these are the attributes of a fragment program",
+                    ))
                 })?;
                 Register::new(RegisterFile::Texture, number)
             }

@@ -152,7 +152,7 @@ pub(super) fn target(cursor: &mut Cursor<'_>) -> Parsed<TextureTarget> {
         token.error(
             ErrorKind::UnknownUsage,
             format!("one of {names}"),
-            "the kind of texture comes last, after its image unit",
+            "the kind of texture comes last, after the image unit",
         )
     })
 }

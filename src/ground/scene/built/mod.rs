@@ -5,7 +5,7 @@
 //!
 //! - [`rooms`]: closed rooms with few walls;
 //! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
-//! - [`transfer_models`]: meshes with the vertex counts of other papers' models, normals and texture coordinates;
+//! - [`transfer_models`]: meshes with normals, texture coordinates and the vertex counts of other papers' models;
 //! - `bunny`, `bodies`: the surfaces of these models; `isosurface` makes bodies of rounded pieces, `resample` gives a
 //!   closed surface any number of vertices;
 //! - [`flat_models`]: models of flat parts with several materials;

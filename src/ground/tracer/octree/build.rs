@@ -45,7 +45,8 @@ impl Octree {
 }
 
 impl OctreeBuilder {
-    /// Makes `node` a leaf of these triangles, or splits it. `useless` counts the useless levels above.
+    /// Makes `node` a leaf of these triangles, or splits it. `useless` counts the consecutive useless levels directly
+    /// above `node`.
     fn fill(&mut self, node: usize, middle: DVec3, half: f64, inside: Vec<u32>, depth: u32, useless: u32) {
         let deepest = self.parameters.most_depth.min(MAX_DEPTH);
         // Cells about as small as the margin do not separate triangles better than their parents.

@@ -15,8 +15,9 @@ use crate::study::{ProgressFn, Study, StudyError};
 
 const COMPACTNESS: &str = "A cluster's compactness is its area divided by the area of a disc with the radius of its \
     ball: 1 for a flat disc, 0.64 for a flat square, 0.41 for an equilateral triangle, and more for folded surfaces, \
-    such as a whole closed surface. One cluster in twenty is less compact than low_compactness. The last columns \
-    count the nodes of the cluster tree that have the size of a texel of the level and more than one face.";
+    such as a whole closed surface. One cluster in twenty is less compact than low_compactness. The last columns count \
+    the nodes of the cluster tree that have the size of one texel of the level and hold more than one face, and those \
+    of them that are connected or simply connected.";
 
 const EVENNESS: &str = "Areas are relative to the mean over all texels. Each face owns a rectangle whose sides are \
     powers of two, so its number of texels can only double or halve: areas vary by about a factor of 2 even if all \
@@ -88,7 +89,8 @@ fn conclude(found: &mut Findings, atlas: &Atlas, quality: &AtlasQuality) {
     found.conclusion(format!("{faces}, {per_face} texels each; {nodes}."));
     let share = |part: usize| percent(part as f64 / quality.nodes as f64);
     found.conclusion(format!(
-        "{} of the texels lie on faces of nonzero area; the standard deviation of their areas is {} of the mean.",
+        "{} of the texels lie on faces of nonzero area; the standard deviation of the texels' areas is {} of their \
+         mean.",
         percent(quality.used),
         percent(quality.deviation)
     ));

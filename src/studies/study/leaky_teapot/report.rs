@@ -215,21 +215,22 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     if aimed(parameters) {
         found.heading("Aimed at the seams");
         found.paragraph(
-            "The paper's equations are evaluated once for each triangle, and on a shared edge the two evaluations need not \
-             agree: a ray can miss both neighbours, in any precision. These rays are aimed from the eye at random points of \
-             every shared edge, and at every vertex; only rays that truly hit are counted. A miss at an outline counts as a leak \
-             too.",
+            "The paper's equations are evaluated once for each triangle, and on a shared edge the two results need not \
+             agree: a ray can miss both neighbouring triangles, in any precision. These rays are aimed from the eye at \
+             random points of every shared edge, and at every vertex; only rays that hit in exact arithmetic are \
+             counted. A miss at an outline counts as a leak too.",
         );
     }
     found.table(edges.csv("edges").field("edges"));
     if let Some(programs) = programs {
         found.heading("Where an edge is evaluated once");
         found.paragraph(
-            "Rows with shared edges sort the corners of each triangle, and compute an edge from its own two corners \
-             alone, by the same operations in both of its triangles. Both get the same bits; one requires at least 0, \
-             the other at most 0, so no ray is outside both. Near a vertex, rounding can still put a ray outside all \
-             triangles that meet there. The table counts only rays whose first hit lies where all surrounding \
-             triangles face the eye, because near an outline a miss may be right for the rounded ray.",
+            "In rows with shared edges, the program sorts the corners of each triangle, and computes an edge from its \
+             own two corners alone, by the same operations in both of its triangles. Both triangles get the same bits; \
+             one requires at least 0, the other at most 0, so no ray is outside both. Near a vertex, rounding \
+             can still put a ray outside all triangles that meet there. The table counts only rays whose first hit \
+             lies where all surrounding triangles face the eye: near an outline, a miss may be right for the ray as \
+             the card rounded it.",
         );
         found.table(FoundTable::from(programs).csv("programs").field("programs"));
     }
@@ -297,7 +298,7 @@ fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutco
     });
     if parameters.listed.is_some() {
         found.paragraph(
-            "The rays are a list: pictures show them row by row, in the order of the file, one pixel per ray.",
+            "The rays come from a file: pictures show them row by row, in the order of the file, one pixel per ray.",
         );
     }
     if !groups.is_empty() {

@@ -46,7 +46,13 @@ impl MatrixInput {
             NumbersOrCodes::Codes(array) => &array.shape,
         };
         let made = <[usize; 2]>::try_from(&shape[..]).ok().filter(|shape| !shape.contains(&0));
-        let wrong = || MatrixError::new(format!("{}: shape", self.name), "two axes, none empty", format!("{shape:?}"));
+        let wrong = || {
+            MatrixError::new(
+                format!("{}: shape", self.name),
+                "two axes with at least one element each",
+                format!("{shape:?}"),
+            )
+        };
         made.ok_or_else(wrong)
     }
 

@@ -62,16 +62,16 @@ fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result<Findings, 
         let bits = match (outcome.fewest_bits, study.units.first().and_then(|unit| unit.bits)) {
             (Some(bits), _) => format!("{name} with one accumulator must keep {bits} bits below the largest exponent"),
             (None, Some(_)) => {
-                format!("{name} misses it with one accumulator for any number of kept bits")
+                format!("{name} misses the goal with one accumulator for any number of kept bits")
             }
             (None, None) => format!("{name} has a fixed number of bits"),
         };
         let promotion = match outcome.rarest_promotion {
-            None => "no promotion meets the goal".to_owned(),
-            Some(step) if step == depth => "it meets the goal with one accumulator".to_owned(),
+            None => "promotion does not meet the goal at any interval".to_owned(),
+            Some(step) if step == depth => "the unit meets the goal with one accumulator".to_owned(),
             Some(step) => format!("promotion every {step} products is the least frequent that meets the goal"),
         };
-        found.conclusion(format!("{goal}: {bits}; with its own bits, {promotion}."));
+        found.conclusion(format!("{goal}: {bits}; with the unit's own number of bits, {promotion}."));
         found.field("fewest_bits", json!(outcome.fewest_bits));
         found.field("rarest_promotion", json!(outcome.rarest_promotion));
         found.conclude(Verdict::held(outcome.fewest_bits.is_some() || outcome.rarest_promotion.is_some()));
@@ -194,6 +194,6 @@ fn add_blame(found: &mut Findings, study: &MatrixProduct, blame: &Blame) {
     fates.sort_by(|x, y| (y.exact - y.kept).abs().total_cmp(&(x.exact - x.kept).abs()));
     fates.truncate(MOST_ADDENDS);
     let title = "Addends with the largest losses: a number is the k of a product, c is the sum before the block, \
-                 result is its rounding";
+         result is the rounding of the sum";
     found.table(FoundTable::from(table(title, &fates)));
 }

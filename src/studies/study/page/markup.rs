@@ -54,8 +54,8 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
                     h1 { "Your GPU against the cards of 2001" }
                     p {
                         "This page runs the arithmetic of early graphics cards on your GPU, in whole numbers, and \
-                         compares every bit with the results of Crossbar's emulator, which the page contains. It also \
-                         shows your GPU's own floats."
+                         compares every bit with the results of Crossbar's emulator, which the page contains. \
+                         It also shows the results of your GPU's own floats."
                     }
                     p #status role="status" { "Waiting for the script. Without it the page shows stored pictures." }
                     dl #adapter {}
@@ -82,7 +82,7 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
 fn arithmetic() -> Markup {
     html! {
         section aria-labelledby="integers" {
-            h2 #integers { "Operations by formats, in whole numbers" }
+            h2 #integers { "Operations in each format, in whole numbers" }
             p {
                 "Each cell counts the operand sets whose bits on your GPU differ from the emulator's. The count must \
                  be 0 everywhere, on every GPU, because only integers are used. A count above 0 links to the first \
@@ -133,9 +133,9 @@ fn programs() -> Markup {
             h2 #programs { "Programs, instruction by instruction" }
             p {
                 "These are pixel programs of the published systems, at one pixel. Every step that the emulator made is \
-                 stored in the page; your GPU makes it again in whole numbers, and each bit is compared. The same \
-                 program also runs, from the same inputs, in your GPU's own floats. Choose a pixel by mouse or arrow \
-                 keys; on the listing, arrow keys step."
+                 stored in the page; your GPU repeats it in whole numbers, and each bit is compared. The same program \
+                 also runs on the same inputs in your GPU's own floats. Choose a pixel by mouse or arrow keys; on the \
+                 listing, arrow keys step."
             }
             div.stand {
                 div.chooser {
@@ -198,7 +198,7 @@ fn fixed_views(views: &[FixedView]) -> Markup {
         section aria-labelledby="fixed" {
             h2 #fixed { "Fixed views, bit for bit" }
             p {
-                "These are pictures of the emulator. Your GPU draws each of them again if it can; triangle and \
+                "The emulator drew these pictures. Your GPU draws each of them again if it can; triangle and \
                  distance of every pixel must have the emulator's bits. All formats round to nearest; our Radeon 8500 \
                  computes in s3.12 rounded down, which leaks most: choose this rounding above."
             }

@@ -33,8 +33,8 @@ pub(super) fn playground(has_emulator: bool) -> Markup {
             @if has_emulator {
                 p {
                     "The emulator itself runs in this page: write a program in a language of Direct3D or OpenGL, choose a device \
-                     and a pixel. Texture coordinates 0 go from (0, 0) to (1, 1), 1 from -1 to 1; samplers 0 to 3 hold a \
-                     checkerboard, a gradient, normals and a ramp."
+                     and a pixel. Texture coordinate set 0 goes from (0, 0) to (1, 1), set 1 from -1 to 1; samplers 0 \
+                     to 3 hold a checkerboard, a gradient, normals and a ramp."
                 }
                 div.stand {
                     div.chooser {
@@ -77,9 +77,11 @@ pub(super) fn shader() -> Markup {
         section aria-labelledby="shader" {
             h2 #shader { "Your own shader" }
             p {
-                "Paste a fragment shader in WGSL. The emulator draws it with all numbers in the format that you choose, and your GPU \
-                 draws the text as it is. " code { "@location(0)" } " goes from (0, 0) to (1, 1). There are no textures, and not \
-                 all of WGSL is translated: docs/wgsl.md has the list."
+                "Paste a fragment shader in WGSL. The emulator draws it with all numbers in the format that \
+                 you choose, and your GPU runs the unchanged shader. "
+                code { "@location(0)" }
+                " goes from (0, 0) to (1, 1). There are no textures, and not all of WGSL is translated: \
+                 docs/wgsl.md has the list."
             }
             div.stand {
                 div.chooser {

@@ -91,7 +91,7 @@ fn one_origin() -> ProgramCase {
     ProgramCase {
         name: "intersection",
         title: "Ray Engine (2002): ray against triangle, one origin",
-        about: "A pixel is a ray from one origin; one triangle is drawn over all of them.",
+        about: "Each pixel is a ray, and all rays have one origin; one triangle is drawn over all pixels.",
         device: "r200",
         formats: ["e5m10", "e8m23"],
         pixel: ONE_ORIGIN_UNSIGNED.text.to_owned(),
@@ -109,7 +109,7 @@ fn any_origin() -> ProgramCase {
     ProgramCase {
         name: "intersection-any-origin",
         title: "Ray Engine (2002): ray against triangle, any origin",
-        about: "A pixel is a ray with an origin and a direction of its own.",
+        about: "Each pixel is a ray with its own origin and direction.",
         device: "r300",
         formats: ["e5m10", "e8m23"],
         pixel: FLOAT.text.to_owned(),
@@ -141,7 +141,7 @@ fn radiosity() -> ProgramCase {
     ProgramCase {
         name: "radiosity",
         title: "Matrix radiosity (2003): a block of matrix times vector",
-        about: "A pixel is a patch of a floor, which gets light from 16 patches of a lamp in one pass.",
+        about: "Each pixel is a patch of a floor, which gets light from 16 patches of a lamp in one pass.",
         device: "nv35",
         formats: ["e5m10", "e7m16"],
         pixel: LUMINANCE_NEXT.unrolled(BLOCK as usize),
@@ -166,7 +166,7 @@ fn subsurface() -> ProgramCase {
     ProgramCase {
         name: "subsurface",
         title: "Subsurface scattering (2003): light that enters the surface",
-        about: "A pixel is a texel of the surface, lit by one OpenGL light.",
+        about: "Each pixel is a texel of the surface, lit by one OpenGL light.",
         device: "nv35",
         formats: ["e5m10", "e7m16"],
         pixel: LIGHT_TEXELS.text.to_owned(),
@@ -201,7 +201,7 @@ fn exit_radiance() -> ProgramCase {
     ProgramCase {
         name: "exit-radiance",
         title: "CPCA (2003): exit radiance at the view vector",
-        about: "A pixel is a view of one point; its radiance is a product of eight coefficients and eight functions.",
+        about: "Each pixel shows one point from another direction; eight coefficients weight eight functions.",
         device: "r300",
         formats: ["e5m10", "e8m23"],
         pixel: ExitKernel { registers: 2 }.text(),

@@ -30,7 +30,7 @@ fn findings(study: &PictureDifference, outcome: DifferenceOutcome) -> Result<Fin
         found.conclusion(if held { "Within all bounds." } else { "Out of bounds." });
     }
     found.paragraph(format!(
-        "{} against {}, {} x {} pixels. Differences are second minus first.",
+        "{} against {}, {} x {} pixels. Differences are the second picture minus the first.",
         first.name,
         second.name,
         first.picture.width(),

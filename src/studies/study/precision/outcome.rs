@@ -85,7 +85,7 @@ impl Precision {
             let names: Vec<&str> = runs.programs.iter().map(|program| program.text.name()).collect();
             let found = format!("{}: expected instructions that compute or read texels, found none", names.join(", "));
             return Err(StudyError::new("crossbar::precision::program", found)
-                .with_help("a study of precision needs an instruction whose result is a number"));
+                .with_help("a study of precision needs at least one instruction whose result is a number"));
         }
         let values = self.subject.profile().switches().iter().map(|switch| switch.values.len() as u64);
         let per_family = RUNS_PER_CURVE + RUNS_PER_INSTRUCTION * runs.count() as u64;

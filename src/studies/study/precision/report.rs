@@ -75,8 +75,8 @@ fn conclude(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
         if let Some([fewer, more]) = family.curve.scan.counterexample {
             let points = &family.curve.scan.points;
             found.conclusion(format!(
-                "More {} can be worse: {measure} is {} with {fewer}, and {} with {more}. All were tried; from {} on \
-                 every number meets the goal.",
+                "More {} can be worse: {measure} is {} with {fewer}, and {} with {more}. All numbers of bits were \
+                 tried; from {} on, every number meets the goal.",
                 family.curve.family.digits(),
                 number(points[&fewer]),
                 number(points[&more]),

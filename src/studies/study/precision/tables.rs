@@ -139,10 +139,10 @@ pub(super) fn family(found: &mut Findings, family: &FamilyOutcome, runs: &Runs<'
     if let Some(blamed) = family.blamed {
         let sum: f64 = family.needs.iter().filter_map(|needs| needs.blame).fold(0.0, |sum, share| sum + share);
         found.paragraph(format!(
-            "alone is the fewest {digits} with all other instructions exact; others_at_minimum, with all others in \
-             {minimum}. blame and regained are shares of the loss with all instructions in {}: blame remains if only \
-             this instruction is in that format, regained disappears if only this one is exact. The shares of blame \
-             sum to {}: {}.",
+            "alone is the fewest {digits} that the instruction needs if all others are exact; others_at_minimum is the \
+             fewest if all others are in {minimum}. blame and regained are shares of the loss with all instructions in \
+             {}: blame remains if only this instruction is in that format, regained disappears if only this one is \
+             exact. The shares of blame sum to {}: {}.",
             blamed,
             percent(sum),
             additivity(sum),
@@ -177,7 +177,8 @@ fn additivity(sum: f64) -> &'static str {
         ..0.99 => "errors that are small alone add up, or one enables another",
         ..=1.01 => "errors add up",
         _ => {
-            "more than all together, because errors cancel, or one hides another, as a clamp or a code of a target does"
+            "more than the whole loss, because errors cancel, or one hides another, as a clamp or a code of a target \
+             does"
         }
     }
 }
@@ -206,7 +207,7 @@ pub(super) fn switches(found: &mut Findings, outcome: &PrecisionOutcome) {
     found.heading("Open switches");
     found.explained_table(
         kept(table, "switches").folded(&firsts, named, (["value", "values"], "the same")),
-        "Each row changes one switch that has several values. minimum has the exponent or integer bits of the curve; \
-         the reference is the exact run of the device as given.",
+        "Each row changes one switch that has several values. minimum is the smallest format for all instructions with \
+         the exponent or integer bits of the curve; the reference is the exact run of the device as given.",
     );
 }

@@ -70,8 +70,8 @@ fn sweep(outcome: &RadiosityOutcome) -> Option<String> {
     };
     let said = |row: &SweepRow| format!("{} at {}", shade(row.error.bias), place(row));
     let ends = finite.iter().min_by(by_bias).zip(finite.iter().max_by(by_bias));
-    let range =
-        ends.map(|(least, most)| format!("Over the sweep the mean error goes from {} to {}.", said(least), said(most)));
+    let range = ends
+        .map(|(least, most)| format!("Over the sweep, the mean error ranges from {} to {}.", said(least), said(most)));
     let lost = others.first().map(|first| {
         let rows = counted(others.len() as u64, "row of the sweep has", "rows of the sweep have");
         format!("{rows} radiosities that are not finite, the first at {}.", place(first))

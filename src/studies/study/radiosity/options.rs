@@ -53,7 +53,7 @@ pub struct RadiosityOptions {
     pub patches: u32,
 
     /// How form factors are computed: unoccluded (all patches see each other), or rays or rays:N (closed forms and
-    /// contour integrals, times the visible fraction by N x N sample rays per pair, 3 x 3 by default).
+    /// contour integrals, times the fraction that N x N sample rays per pair find visible, 3 x 3 by default).
     #[arg(long, value_name = "HOW", default_value = "rays")]
     pub factors: Factors,
 
@@ -71,11 +71,11 @@ pub struct RadiosityOptions {
     #[arg(long = "packing", value_name = "P", value_parser = variants::<Packing>())]
     packings: Vec<Packing>,
 
-    /// For the card: what registers, textures and targets hold; may be repeated [default: fp32]
+    /// For the card: the number format of registers, textures and targets; may be repeated [default: fp32]
     #[arg(long = "storage", value_name = "F", value_parser = variants::<Storage>())]
     storages: Vec<Storage>,
 
-    /// Stop when the norm of the residual is at most this fraction of the emittance's [default: 1e-4; 0 with
+    /// Stop when the norm of the residual is at most this fraction of the emittance's norm [default: 1e-4; 0 with
     /// --iterations]
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     tolerance: Option<f64>,

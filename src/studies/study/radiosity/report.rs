@@ -92,14 +92,15 @@ pub(super) fn findings(parameters: &Parameters, outcome: &RadiosityOutcome) -> R
 const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures; the \
     bar below each picture shows the scale. docs/studies/radiosity.md explains why half precision darkens a room.";
 
-const ENDS: &str = "An iteration in finite precision that never meets its tolerance repeats an earlier state, and \
+const ENDS: &str = "An iteration in finite precision that never meets its tolerance returns to an earlier state, and \
     cycles from there on. States are compared bit for bit; the period is the smallest.";
 
 const ON_THE_CARD: &str = "Operations are counted as in the paper: two per element and channel, without indexing. \
     bandwidth_used is the memory traffic of an iteration as a share of what the memory can transfer in that time.";
 
-const SWEEP: &str = "A switch is an open question about the card; each is changed alone. Settings with the same bits \
-    share a row. predicted_mean is the first-order prediction if every term of a sum is rounded to the sum's step.";
+const SWEEP: &str = "A switch is an open question about the card; each switch is changed alone. Settings with the same \
+    bits share a row. predicted_mean is the first-order prediction of mean_relative if every term of a sum is rounded \
+    to the sum's step.";
 
 fn frame(frame: &IterationPicture) -> NamedPicture {
     let caption = format!("after {}", counted(frame.iteration.into(), "iteration", "iterations"));

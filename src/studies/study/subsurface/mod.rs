@@ -57,7 +57,7 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Subsurf
     let (irradiance, cast) = match &parameters.lighting {
         Lighting::Lights(lights) => (irradiance(&atlas, lights, eta), None),
         Lighting::Environment(light) => {
-            progress("light of the environment", 0, 1);
+            progress("environment light", 0, 1);
             environment::irradiance(&atlas, parameters, light)?
         }
     };

@@ -129,7 +129,7 @@ pub struct SubsurfaceOptions {
     #[arg(long = "map", value_name = "F", value_parser = variants::<MapBits>())]
     pub maps: Vec<MapBits>,
 
-    /// Largest relative error of factors, in addition to 1e-5 of the total
+    /// Largest relative error of the links' factors, in addition to 1e-5 of the total
     #[arg(long, value_name = "X", default_value_t = crate::subsurface::multipole::TOLERANCE, value_parser = number::positive)]
     pub tolerance: f64,
 
@@ -152,7 +152,7 @@ fn rgb() -> OneOf<bool> {
 }
 
 fn yes_or_no() -> OneOf<bool> {
-    one_of([("yes", "Gather over all pairs", true), ("no", "Leave them out", false)])
+    one_of([("yes", "Gather over all pairs", true), ("no", "Leave out the sum over all pairs", false)])
 }
 
 impl SubsurfaceOptions {

@@ -60,13 +60,14 @@ const ERRORS: &str = "Columns that begin with links compare the host's double-pr
     and columns that begin with all compare it with the sum over all pairs. Without all pairs (`--all-pairs no`, and \
     the default of atlases above ";
 
-const ANGLES: &str = "The lit side of a model dominates a root mean square over the whole model. Here every bin of angles is relative to its own \
-    light: at 0 degrees the surface faces the light; at 180 degrees it faces away, and all light arrives from afar.";
+const ANGLES: &str = "The lit side of a model dominates a root mean square over the whole model. Here the errors in \
+    every bin of angles are relative to the light of that bin: at 0 degrees the surface faces the light; at 180 \
+    degrees it faces away, and all light arrives from afar.";
 
 const STORAGE: &str = "Fixed links store places in constants and four factors per texel; an adaptive link is one \
     texel with place, factor and level. lost_to_0 counts factors below the format's smallest number. places_rounded \
     counts coordinates of adaptive links that the format cannot represent; such links read a neighbor's light. \
-    instructions counts all programs of pass 2, samplers only the largest program.";
+    instructions counts those of all programs of pass 2; samplers counts those of the largest program only.";
 
 const TIMES: &str = "Times are modelled, not measured; the model has no constant from this paper.";
 

@@ -52,11 +52,11 @@ const SHADOW_GROUP: usize = 8;
 /// Parameters of the tour.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Parameters {
-    /// Pixels of the picture
+    /// Size of the picture, in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
-    /// Lengthen edges of patches and models by this factor, for a quick look
+    /// Make the edges of patches and of the models' triangles longer by this factor, for a quick look
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = number::whole::<u32>(1..=8))]
     coarser: u32,
 }

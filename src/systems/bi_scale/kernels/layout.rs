@@ -11,7 +11,7 @@ use crate::card::{TO_CLIP, WrittenKernel, local_view};
 /// components; the fourth components of three sets hold one more direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LocalLayout {
-    /// Sets of four numbers: 3 or more.
+    /// Number of texture coordinate sets, of four numbers each: 3 or more.
     pub sets: usize,
 }
 

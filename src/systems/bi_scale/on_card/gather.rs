@@ -33,7 +33,7 @@ const INSTRUCTIONS: usize = 512;
 /// Wraps in u, because a texel is addressed only by its index.
 const BY_NUMBER: SamplerState = SamplerState { address_u: AddressMode::Wrap, ..SamplerState::NEAREST_CLAMP };
 
-/// Sums over lists of places in a texture.
+/// One stage of the product: sums over lists, whose entries are positions of texels in a texture.
 #[derive(Debug)]
 struct Stage {
     is_weighted: bool,
@@ -257,8 +257,8 @@ fn buffer_lists(biclusters: &Biclustering, limits: ListLimits<'_>) -> Result<Lis
     Lists::new("biclusters", &lengths, &texel, [none, 0.0, none, 0.0], limits)
 }
 
-/// The lists of rows: buffer places of the row's biclusters, in the order in which biclusters were found. The buffer is
-/// 0 after the last place.
+/// One list per row: the buffer places of the row's biclusters, in the order in which the biclusters were found. The
+/// buffer is 0 after the last place.
 fn row_lists(biclusters: &Biclustering, buffer: &Lists, limits: ListLimits<'_>) -> Result<Lists, CardError> {
     let mut places = vec![0; biclusters.len()];
     (0_u32..).zip(&buffer.order).for_each(|(place, &bicluster)| places[bicluster as usize] = place);

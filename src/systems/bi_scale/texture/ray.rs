@@ -15,7 +15,7 @@ pub const REACH: f64 = 64.0;
 /// rays that start on the surface.
 pub(super) const DEPTH: f64 = 1e-12;
 
-/// A ray with horizontal coordinates in texels, and heights in edges of the patch.
+/// A ray with horizontal coordinates in texels, and heights in units of the patch's edge length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TexelRay {
     pub(super) at: [f64; 2],

@@ -100,8 +100,8 @@ impl<'a> PrtCard<'a> {
         Ok(self.show(light, view, false)?.0)
     }
 
-    /// Like [`Self::view_texels`], with the log of host and card for
-    /// [`frame_time`](crate::card::frame_time::frame_time), without read-back.
+    /// Like [`Self::view_texels`], but also returns the log of host and card, without the read-back, for
+    /// [`frame_time`](crate::card::frame_time::frame_time).
     pub fn logged_view(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<(Texels, Vec<Event>), CardError> {
         let (texels, mut log) = self.show(light, view, true)?;
         log.insert(0, host_work(HostOperation::MultiplyAdd, self.size.host_multiply_adds() as u64));

@@ -8,7 +8,7 @@ use crate::exec::usage::registers_delivered;
 use crate::exec::{PixelBindings, ResolvedConstants};
 use crate::isa::{Mask, Program};
 
-/// Use of values.
+/// What the values of a sink are used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SinkKind {
     /// Output of a colour component: target, component.

@@ -158,7 +158,7 @@ const begin = async () => {
       await navigator.clipboard.writeText(at("json").value);
       at("copied").textContent = "Copied.";
     } catch {
-      at("copied").textContent = "The browser refuses: the text is selected, copy it yourself.";
+      at("copied").textContent = "The browser does not allow copying: the text is selected, copy it yourself.";
     }
   };
   show();
@@ -174,7 +174,7 @@ const begin = async () => {
     end("without", "This browser has no WebGPU here, so nothing runs: the traces and pictures below are the emulator's, stored in the page.");
     return;
   }
-  device.lost.then(({ message }) => end("lost", `The GPU is lost: ${message}. Load the page again.`));
+  device.lost.then(({ message }) => end("lost", `The browser lost the GPU: ${message}. Load the page again.`));
   try {
     const gpu = await teapotPipelines(device);
     said("Drawing the teapot ...");
@@ -188,7 +188,7 @@ const begin = async () => {
     end(wrong + untrue + different === 0 ? "equal" : "different", `${count(wrong)} wrong results in whole numbers; ${traces}; ${pictures}.`);
   } catch (error) {
     FOUND.error = String(error);
-    end("failed", `The GPU or its driver refuses: ${error}`);
+    end("failed", `The GPU or its driver reports an error: ${error}`);
   }
 };
 begin();

@@ -88,7 +88,7 @@ fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], stu
     let expressions = counted(studied.len() as u64, "expression", "expressions");
     for (at, family) in study.families.iter().enumerate() {
         let met = studied.iter().filter(|(_, outcome)| outcome.curves[at].minimum.is_some()).count();
-        found.conclusion(format!("For {met} of {expressions}, some {} format meets {goal}.", family.name()));
+        found.conclusion(format!("For {met} of {expressions}, at least one {} format meets {goal}.", family.name()));
     }
     let names = studied.iter().take(1).flat_map(|(_, outcome)| outcome.formats.iter().map(|row| row.name));
     let smallest = study.families.iter().map(|family| format!("smallest_{}", family.name()));

@@ -50,7 +50,8 @@ fn conclude(drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
     if negative > 0 {
         let least = shown(least, Quantity::Measured);
         found.conclusion(format!(
-            "{negative} pixels are below 0, down to {least}: factors cut off after m terms have negative lobes."
+            "{negative} pixels are below 0, down to {least}: factors that are cut off after some terms have negative \
+             lobes."
         ));
     }
     found.fields(json!({
@@ -76,7 +77,8 @@ impl LitModel {
             100.0 * (apart / b.iter().flatten().map(|value| value * value).sum::<f64>()).sqrt()
         };
         let pixels = share(drawn, &picture);
-        let of_pixels = "root mean square difference of pixels, relative to the picture's root mean square (%)";
+        let of_pixels =
+            "root mean square difference of the pixels, relative to the root mean square of the picture (%)";
         let table = Table::new("Coded against uncompressed", &["figure", "value"]).with([
             [of_pixels.into(), Cell::measured(pixels)],
             ["the same for vertices (%)".into(), Cell::measured(share(of_vertex, exact))],

@@ -130,7 +130,13 @@ impl CausePictures {
         let scale = largest.max(1e-30);
         let steps = self.pictures.windows(2).zip(&self.causes).map(|(step, (word, cause))| {
             let (changes, _) = difference_of_means(&step[1], &step[0]);
-            signed_picture(format!("cause-{word}"), &format!("{cause}: what it changes;"), width, &changes, scale)
+            signed_picture(
+                format!("cause-{word}"),
+                &format!("{cause}: what this cause changes;"),
+                width,
+                &changes,
+                scale,
+            )
         });
         found.heading("Compared with a ray-traced picture");
         let by_rays = rendering.view.picture(exact);

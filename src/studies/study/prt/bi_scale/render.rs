@@ -27,7 +27,7 @@ impl Study for BiScaleRendering {
         if below > 0 {
             found.conclusion(format!(
                 "{below} of them see their surface from below the horizon of its interpolated normal, and use the \
-                 views at the horizon."
+                 texture's views at the horizon."
             ));
         }
         let lights = self.textures.first().map_or(0, |texture| texture.samples.light().directions().len());
@@ -75,8 +75,8 @@ impl<'a> BiScaleDrawing<'a> {
             let found = samples.light().directions().len();
             if found != expected {
                 let what =
-                    format!("{name}: expected {expected} directions of light, as the transfer has, found {found}");
-                let help = "make the texture, or the transfer, with the other's `--directions`";
+                    format!("{name}: expected {expected} directions of light, as in the transfer, found {found}");
+                let help = "give the texture and the transfer the same `--directions`";
                 return Err(StudyError::new("crossbar::prt::directions", what).with_help(help));
             }
             if rendering.reference && patch.is_none() {

@@ -82,8 +82,8 @@ impl LocalLight {
 }
 
 pub(super) fn no_mesh_transfer() -> StudyError {
-    let help = "give a file that `crossbar bi-scale precompute` wrote, or its biclusters";
-    let what = "expected transfer of a mesh, found another matrix";
+    let help = "give a file that `crossbar bi-scale precompute` wrote, or the biclusters of such a file";
+    let what = "expected transfer of a mesh, found a matrix without a mesh";
     StudyError::new("crossbar::prt::meaning", what).with_help(help)
 }
 

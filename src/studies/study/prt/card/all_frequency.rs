@@ -24,9 +24,9 @@ use crate::transfer::light::{HaarLight, LightTruncation};
 const BITS: [u8; 5] = [8, 10, 12, 14, 15];
 
 const SWEEP: &str = "Each row changes one property of a picture with negligible rounding; errors are in steps of \
-    1/255. Representatives and weights are recoded from the file's bits, with double-precision sums, and compared \
-    with the file's own code; all other rows are drawn into floats and compared with double-precision products of the \
-    same numbers.";
+    1/255. Representatives and weights are coded again with fewer bits; these rows use double-precision sums, and are \
+    compared with the file's own code; all other rows are drawn into floats and compared with double-precision \
+    products of the same numbers.";
 const TIME: &str = "Times are modelled, not measured, by the pipeline model of the card, and for a host whose speed \
     follows from the frame rates of the paper's Table 1. Host and card work in parallel, frame after frame.";
 

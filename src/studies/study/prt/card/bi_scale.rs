@@ -27,8 +27,8 @@ use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::light::DistantLight;
 
 const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in \
-    steps of 1/255, against equation 3 and light multiplied in double precision. 8-bit fractions are relative to the \
-    largest number.";
+    steps of 1/255, against equation 3 and products with light in double precision. 8-bit fractions are relative to \
+    the largest number.";
 const TIME: &str = "Times are modelled, not measured, by the pipeline model of the card, in which texture reads run \
     at the full rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is \
     reused.";
@@ -129,7 +129,7 @@ impl BiScaleOnCard {
         ] {
             if expected != found {
                 let what = format!("expected transfer of {expected} {what}, found {found}");
-                let help = "precompute transfer with as many `--directions` as the texture has for light";
+                let help = "precompute the transfer with the texture's number of light `--directions`";
                 return Err(StudyError::new("crossbar::prt::bi_scale", what).with_help(help));
             }
         }

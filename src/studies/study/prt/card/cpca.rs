@@ -30,9 +30,9 @@ const SIDES: [usize; 5] = [8, 16, 32, 64, 128];
 
 const SWEEP: &str = "Each row changes one thing in a picture in single precision, with maps of 512 x 512 texels in \
     floats and a target of floats, and is compared with that picture where pixels show the mesh. visible_% is the \
-    share of pixels with a channel that is off by more than 1/255. Targets of fractions clamp at 0 after each group of \
-    clusters: negative light is lost if the group that balances it is drawn later. `together` draws clusters in \
-    groups, `alone` one after the other.";
+    share of pixels with a channel that is off by more than 1/255. Targets that store fractions clamp at 0 after each \
+    group of clusters: negative light is lost if the group that balances it is drawn later. `together` draws clusters \
+    in groups, `alone` one after the other.";
 const TIME: &str = "Times are modelled, not measured, by the pipeline model of the card, and for a host whose speed \
     follows from the paper's 2.9 frames per second of uncompressed transfer. Host and card work in parallel, frame \
     after frame.";

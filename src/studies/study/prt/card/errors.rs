@@ -71,8 +71,8 @@ pub(super) fn held(pixels: &[[f64; 3]], is_clamped: bool) -> Vec<[f64; 3]> {
 const NOT_ALONE: [&str; 2] = ["none", "card"];
 
 const BLAME: &str = "Each row is the error of one step from light to picture, in steps of 1/255: the picture is \
-    compared with the same picture with that step exact. The host computes all rows except the card's, in double \
-    precision, at each pixel of the card's raster, from what is interpolated between vertices.";
+    compared with the same picture in which that step is exact. The host computes all rows except the card's, in \
+    double precision, at each pixel of the card's raster, from what is interpolated between vertices.";
 
 /// A variant of a picture, with its errors.
 #[derive(Clone, Debug, PartialEq)]

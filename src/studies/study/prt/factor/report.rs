@@ -62,7 +62,8 @@ impl BrdfFactors {
         ));
         if let Some((order, harmonic)) = harmonics.iter().find(|(_, harmonic)| harmonic.rms <= errors.rms) {
             found.conclusion(format!(
-                "Spherical harmonics by integrals on both sides need {} functions (order {order}) for the same accuracy: RMS {}.",
+                "Spherical harmonics for view and light need {} functions (order {order}) for the same accuracy: RMS \
+                 {}.",
                 function_count(*order),
                 error(harmonic.rms)
             ));
@@ -70,15 +71,15 @@ impl BrdfFactors {
         if let Some(pair) = all.split_pair(count) {
             let [kept, left] = pair.values.map(|value| shown(value, Quantity::Measured));
             found.conclusion(format!(
-                "Warning: terms {count} and {} are a pair of singular values, {kept} and {left}, and only one of them is \
-                 kept: the approximation favors a direction that the reflectance does not.",
+                "Warning: terms {count} and {} have almost equal singular values, {kept} and {left}, and only one of \
+                 them is kept: the approximation favors a direction that the reflectance does not favor.",
                 count + 1
             ));
         }
         if errors.negative > 0.0 {
             let least = shown(errors.least, Quantity::Measured);
             found.conclusion(format!(
-                "The approximation is negative at {} of these pairs; its minimum is {least}.",
+                "The approximation is negative at {} of the pairs of texels; its minimum is {least}.",
                 percent(errors.negative)
             ));
         }

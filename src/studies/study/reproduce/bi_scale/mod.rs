@@ -19,8 +19,8 @@ use super::{
 const COUNTS: &str = "Nothing is run. Each nonzero value of the matrix costs two operations. A dense matrix takes 1 byte per value, and \
     biclusters take 4 bytes per operation: a row takes 4 bytes and one operation; a column takes 8 bytes, for its place and its value, and two \
     operations. A texel has 3 bytes. We inferred these byte counts from the printed sizes, so rows in megabytes are calibrated.";
-const QUESTION: &str =
-    "why the small bunny's dense matrix is printed larger than its vertices imply, while the other five fit.";
+const QUESTION: &str = "why the printed size of the small bunny's dense matrix is larger than its vertices imply, \
+    while the other five sizes fit.";
 
 /// Values of both tables that follow from the sizes alone. The rows are expressions in `src/studies/papers`.
 pub(super) fn counts(_: &Shared) -> Result<EntryFindings, StudyError> {

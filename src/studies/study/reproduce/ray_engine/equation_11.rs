@@ -32,7 +32,10 @@ pub(super) fn rates(device: &str) -> Result<CostRates, StudyError> {
 const READ_BACK: &str = "250 MB/s (read-back)";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let mut worked = Table::of("Worked examples, in M/s", "figure device printed equation pipeline");
+    let mut worked = Table::of(
+        "Worked examples, in millions of results or pixels per second",
+        "figure device printed equation pipeline",
+    );
     let mut rows = Vec::new();
     for (id, gamma) in ["ray-engine/results-4", "ray-engine/results-16"].into_iter().zip(GAMMAS) {
         let equation = rates("nv20")?.results_per_s(gamma) / MEGA;

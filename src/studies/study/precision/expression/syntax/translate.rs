@@ -17,9 +17,9 @@ const REFUSED: [(&str, &str); 6] = [
     ("!", "the studied format applies to every operation, so annotations of single operations have no meaning"),
     ("while while* for for*", "loops are not supported: expressions are straight-line"),
     ("tensor tensor* array ref dim size", "tensors are not supported"),
-    ("erf erfc tgamma lgamma", "the study cannot enclose it over the reals"),
+    ("erf erfc tgamma lgamma", "the study cannot compute bounds of this function over the reals"),
     ("floor ceil trunc round nearbyint fmod remainder fdim copysign", "functions with jumps are not supported"),
-    ("isfinite isinf isnan isnormal signbit INFINITY NAN", "it has no meaning over the reals"),
+    ("isfinite isinf isnan isnormal signbit INFINITY NAN", "it is not defined over the reals"),
 ];
 
 /// Translates `(FPCore NAME? (ARGUMENTS) PROPERTIES... BODY)`.
@@ -124,7 +124,7 @@ fn free_names(tree: &Tree, source: &Arc<SourceText>, names: &mut Vec<String>) ->
     }
     match name.to_uppercase().as_str() {
         "INF" | "INFINITY" | "NAN" => {
-            Err(ExpressionError::new(source, format!("`{name}`: it has no meaning over the reals"), place))
+            Err(ExpressionError::new(source, format!("`{name}`: it is not defined over the reals"), place))
         }
         upper if is_constant(upper) => {
             let message = format!("`{name}`: write `{upper}` for the constant, or give the variable another name");
