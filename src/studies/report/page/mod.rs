@@ -270,8 +270,6 @@ fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Markup {
     }
 }
 
-/// Columns after the first, except the verdict column.
-
 /// Accent colors of links and outcomes. Good, neutral and bad outcomes are blue, grey and orange of Okabe and Ito
 /// (2008), adjusted for contrast with each page. All accents can be told apart with any color vision.
 type Accents = [(&'static str, Color); 7];

@@ -121,7 +121,7 @@ impl OnCard {
         transfer: CompressedTransfer<'a>,
         (options, format): (&PrtCardOptions, TexelFormat),
         exposure: f64,
-    ) -> Result<(PrtCard<'a>, Vec<[f64; 3]>, Vec<Event>), StudyError> {
+    ) -> Result<DrawnTransfer<'a>, StudyError> {
         let executor = self.card.executor.clone();
         let mut card = PrtCard::new(profile.clone(), executor, transfer, options).map_err(no_cpca_card)?;
         let view = MeshView { camera: self.view.camera, exposure, format };
@@ -129,6 +129,9 @@ impl OnCard {
         Ok((card, texels.colors(), log))
     }
 }
+
+/// A card, the radiance times exposure of its pixels, and its log.
+type DrawnTransfer<'a> = (PrtCard<'a>, Vec<[f64; 3]>, Vec<Event>);
 
 /// Sizes and counts: the columns of the paper's Table 1, and the counts that section 6.2 derives from them. A triangle
 /// is drawn once per group of clusters that has one of its vertices.

@@ -5,8 +5,10 @@ use super::{Dependence, Method, PaperRow, Setting, StudyError, Sweep, paper_row,
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
 
-/// Readings with their names; each computes a fraction in [0, 1].
-const READINGS: [(&str, fn(&EngineCounts) -> f64); 2] = [
+/// A reading with its name; it computes a fraction in [0, 1].
+type ShareReading = (&'static str, fn(&EngineCounts) -> f64);
+
+const READINGS: [ShareReading; 2] = [
     // Rays that met the card at least once, relative to all rays.
     ("rays", EngineCounts::share_on_card),
     // Visits to a GPU cell's cache that ended on the card, relative to all visits; the others were forced to the host.
