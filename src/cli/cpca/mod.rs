@@ -32,7 +32,7 @@ pub(super) struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Verb {
-    Precompute(precompute::Args),
+    Precompute(Box<precompute::Args>),
     Compress(compress::Args),
     Show(show::Args),
     Render(draw::Render),
