@@ -127,7 +127,7 @@ type DrawnArrays = (String, Vec<Array3<f64>>, Option<Array2<f64>>);
 
 fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseError> {
     let outcome = case::run(setup, kind)?;
-    let mut loaded = Loaded::recording(setup, kind, None)?;
+    let mut loaded = Loaded::new(setup, kind)?;
     loaded.draw()?;
     let minimum = setup.profile.rules.signed_texel_minimum;
     let numbers = |target: &Image| {
@@ -145,7 +145,7 @@ fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseErr
         })
     });
     let mut document = outcome.document(setup);
-    document["modelled"] = modelled(setup, &loaded.take_log());
+    document["modelled"] = modelled(setup, &case::log(setup, kind)?);
     Ok((document.to_string(), targets, depth))
 }
 
