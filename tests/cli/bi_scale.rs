@@ -160,7 +160,7 @@ fn textures_that_do_not_fit_are_refused() {
         (format!("--texture {file}"), "expected 16 directions of light, as in the transfer, found 9"),
         (format!("--texture {damaged}"), "view 3, light 8, row 0, column 0"),
         (format!("--texture {cut}"), "expected 108 x 4 bytes"),
-        (format!("--texture {file} --texture-size 8"), "`--texture-size` is for textures of patches"),
+        (format!("--texture {file} --texture-size 8"), "`--texture-size` is for textures of named patches"),
     ] {
         let words = refused_line(&format!("bi-scale render {COURT_BICLUSTERS} --model {COURT} --size 8x6 {options}"));
         assert!(words.contains(said), "{options}: {words}");

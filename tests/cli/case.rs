@@ -272,7 +272,7 @@ fn a_program_that_runs_too_long_is_an_error() {
     let traced = fails(&["run", "case.toml", "--trace", "7,3"]);
     assert!(traced.contains("pixel (7, 3)") && traced.contains("1000"), "{traced}");
     with_budget(5, &text);
-    assert!(fails(&["compare", "case.toml"]).contains("5 steps"));
+    assert!(fails(&["compare", "case.toml"]).contains("budget of 5"));
     with_budget(0, &text);
     assert!(fails(&["run", "case.toml"]).contains("step budget of 1 or more"));
     let fits = text.replace("[255, 0, 0, 0]", "[2, 0, 0, 0]");
@@ -298,7 +298,7 @@ fn inputs_of_shaders_are_complete() {
         ("ggx.wgsl --uniform roughness=0.3,0.4", "expected 1 number for `roughness`, found 2"),
         ("ggx.wgsl", "reads the uniform `roughness`, which has no value"),
         ("few.toml", "expected 3 numbers for `bones.first[1]`, found 2"),
-        ("normal_map.wgsl --uniform light=1,0,0", "this reads the texture of slot 0, which the case does not have"),
+        ("normal_map.wgsl --uniform light=1,0,0", "this expression reads the texture of slot 0, which the case does not have"),
         ("missing.wgsl", "cannot be read"),
     ] {
         let all = format!("run docs/examples/wgsl/{arguments} --out out");
