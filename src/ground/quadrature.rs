@@ -38,8 +38,8 @@ pub const SIXTEEN: [GaussPoint; 16] = rule(&[
 /// Maximum number of points of a rule by [`gauss_legendre`].
 pub const MAX_POINTS: usize = 1024;
 
-/// Number of steps of Newton's method: from the asymptotic roots, three steps are exact to the last bits; the other two
-/// are a reserve.
+/// Number of steps of Newton's method: started at the asymptotic roots, it is exact except for the last bits after
+/// three steps; the other two steps are a reserve.
 const NEWTON_STEPS: usize = 5;
 
 /// Computes the rule with 1 to [`MAX_POINTS`] points on [0, 1], by Newton's method on the roots of the Legendre

@@ -298,7 +298,10 @@ fn inputs_of_shaders_are_complete() {
         ("ggx.wgsl --uniform roughness=0.3,0.4", "expected 1 number for `roughness`, found 2"),
         ("ggx.wgsl", "reads the uniform `roughness`, which has no value"),
         ("few.toml", "expected 3 numbers for `bones.first[1]`, found 2"),
-        ("normal_map.wgsl --uniform light=1,0,0", "this expression reads the texture of slot 0, which the case does not have"),
+        (
+            "normal_map.wgsl --uniform light=1,0,0",
+            "this expression reads the texture of slot 0, which the case does not have",
+        ),
         ("missing.wgsl", "cannot be read"),
     ] {
         let all = format!("run docs/examples/wgsl/{arguments} --out out");

@@ -131,7 +131,8 @@ fn rotation(format: ModelFormat, options: ModelOptions) -> Option<fn([f32; 3]) -
     }
 }
 
-/// The triangles to flip, and notes on defects of a mesh. Edges count only triangles with an area.
+/// The triangles to flip, and notes on defects of a mesh. Triangles without an area are ignored when the triangles at
+/// an edge are counted.
 fn oddities(mesh: &Mesh) -> (Vec<u32>, Vec<ModelNote>) {
     let wrong = mesh.misoriented();
     let crowded = mesh.welded_with_area().0.edges().iter().filter(|edge| !edge.is_manifold()).count();

@@ -71,8 +71,8 @@ impl Submatrix {
     }
 }
 
-/// Algorithm 1 with every operation tried, each by equation 9. Each operation scans the whole matrix, so the function
-/// is for small matrices.
+/// Algorithm 1, in which every possible operation is tried and evaluated with equation 9. Each operation scans the
+/// whole matrix, so the function is for small matrices.
 pub fn biclusters(matrix: &SparseMatrix, seed: u64) -> Biclustering {
     let mut left = dense(matrix);
     let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());

@@ -102,7 +102,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         if R == ANY { self.rounding } else { R }
     }
 
-    /// Rounds a single-precision result that was computed in the rounding `R`.
+    /// Rounds to the format a single-precision result that was computed with rounding mode `R`.
     #[inline(always)]
     fn narrow(&self, x: f32) -> f32 {
         match (PATH, R) {

@@ -96,8 +96,9 @@ pub(crate) fn nearest_sum(a: f32, b: f32) -> f32 {
 
 /// `a b` rounded to the nearest single, ties away; NaN where the product is too small to be adjusted.
 ///
-/// The product has 48 bits at most. Moving a number outward by a nonzero amount less than its last bit rounds ties away
-/// and changes nothing else. The amount, rounded if subnormal, is at most half of the last bit.
+/// The product has 48 bits at most. If a number is moved away from zero by a nonzero amount less than its last bit
+/// before it is rounded to nearest, ties are rounded away from zero, and all other results stay the same. The amount,
+/// rounded if subnormal, is at most half of the last bit.
 #[inline(always)]
 pub(crate) fn nearest_product(a: f32, b: f32) -> f32 {
     let outward = a * b * HAIR;

@@ -73,8 +73,8 @@ fn floor_clamped(sign: bool, sig: u64, exp: i32, den: u32) -> i32 {
 
 /// `log2 x`, correctly rounded.
 ///
-/// Zero gives -inf with `DIVIDE_BY_ZERO` (the most negative number in fixed point and `:sat` floats). A negative operand
-/// is `INVALID` (IEEE 754, 9.2.1).
+/// Zero gives -inf with `DIVIDE_BY_ZERO` (the most negative number in fixed point and `:sat` floats). A negative
+/// operand is `INVALID` (IEEE 754, 9.2.1).
 pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     if let Some(done) = unit::evaluate(&env.format, UnitOperation::Log2, &[x]) {
@@ -157,7 +157,8 @@ pub fn pow(env: impl Into<Env>, x: u32, y: u32) -> Outcome {
     exp2(env, product.bits).also(log.flags | product.flags)
 }
 
-/// Rounds all values strictly between `low * 2^exp` and `high * 2^exp`; `None` if they differ in bits or flags.
+/// Returns the rounded result that all values strictly between `low * 2^exp` and `high * 2^exp` share; `None` if their
+/// results differ in bits or flags.
 fn decide_quick(env: &Env, low: i128, high: i128, exp: i32) -> Option<Outcome> {
     let (sign, near, far) = match (low >= 0, high <= 0) {
         (true, _) => (false, low, high),

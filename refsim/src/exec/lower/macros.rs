@@ -128,7 +128,8 @@ impl GraphBuilder<'_> {
         self.select(holds, yes, no)
     }
 
-    /// Returns `true` for a vertex unit, whose instructions combine several of these steps.
+    /// Returns `true` for a vertex unit, which has single operations for results that are otherwise computed in several
+    /// steps.
     fn is_vertex_unit(&self, k: Arith) -> bool {
         self.formats.format(k).unit.is_vertex_unit()
     }

@@ -115,7 +115,7 @@ shared! {
     TEXEL_SPLIT = 5;
     /// Bits repeated to a byte k: `k / 255`.
     TEXEL_BYTE = 6;
-    /// Bits repeated to a signed byte k: `2k / 255`.
+    /// A channel whose bits are repeated to fill a signed byte k; its value is `2k / 255`.
     TEXEL_SIGNED_BYTE = 7;
     /// Bits repeated to a signed byte k: `2k / 255`, with the smallest value clamped to -1.
     TEXEL_SIGNED_BYTE_CLAMPED = 8;

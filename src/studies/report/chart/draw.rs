@@ -25,8 +25,8 @@ const SAMPLE: [i32; 2] = [PLOT.0 + 4, PLOT.0 + 28];
 const FONTS: [f64; 2] = [20.0, 15.5];
 /// Distance of the centres of neighbouring labels, in pixels.
 const PITCH: i32 = 19;
-/// Maximum width of a letter of the smaller font, averaged over a label, in pixels: sans-serif letters are 0.6 of their
-/// font's size wide on average, or less.
+/// Upper bound, in pixels, of the mean width of a label's letters in the smaller font: sans-serif letters are on
+/// average at most 0.6 of their font's size wide.
 const LETTER: i32 = 8;
 const MARK: i32 = 4;
 /// Minimum distance between markers of a line, in pixels.

@@ -99,7 +99,7 @@ pub trait PrecisionSubject {
     }
 }
 
-/// Number of instructions with the same text from which they count as an unrolled loop and share a format.
+/// Minimum number of instructions with the same text that count as an unrolled loop and share a format.
 const UNROLLED: usize = 8;
 
 /// Instruction of a subject, by the indices of program and instruction. For an expression of WGSL or an unrolled loop:

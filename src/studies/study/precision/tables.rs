@@ -22,7 +22,7 @@ fn kept(table: Table, name: &'static str) -> FoundTable {
     FoundTable::from(table).csv(name).field(name)
 }
 
-/// Verb for a value that meets the goal or not.
+/// The verb that says whether a value meets or misses the goal.
 fn meets(value: f64, runs: &Runs<'_>) -> &'static str {
     if runs.goal.met(value) { "meets" } else { "misses" }
 }

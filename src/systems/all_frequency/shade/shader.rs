@@ -150,7 +150,7 @@ impl Shader {
         TransferredRadiance { rows: self.rows, stride, values }
     }
 
-    /// The multiplications of rendering under a light.
+    /// Number of multiplications for rendering under a light.
     pub fn multiplies(&self, light: &[[f32; 3]]) -> Multiplies {
         let lit = |segment: usize, column: usize| {
             let at = segment * self.coefficients + column % self.coefficients;

@@ -2,8 +2,9 @@
 //!
 //! The light of a far cluster varies smoothly among near texels. So a square of texels has one second-order expansion
 //! of the light of all clusters that are far from it. Its four quarters have expansions for the clusters that were too
-//! near, and so on; each texel gathers the remaining clusters individually. The nodes of the tree of clusters store
-//! these parts separately, so that a texel has the factor of every node: a node's parts plus the sum over its children.
+//! near, and so on; each texel gathers the remaining clusters individually. Each node of the tree of clusters stores
+//! what the squares and the texel gather at that node separately, so that a texel has the factor of every node: what is
+//! gathered at the node itself, plus the sum of its children's factors.
 
 use super::expansion::Expansion;
 use super::integrate::Receiver;

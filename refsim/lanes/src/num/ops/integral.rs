@@ -67,7 +67,7 @@ fn split(sig: u64, exp: i32, den: u32) -> (u64, u64, u64) {
 }
 
 /// `x - floor(x)`, rounded once. A small negative `x` may round to 1. Integers give +0 (-0 when rounding down);
-/// infinities are `INVALID`.
+/// infinities raise `INVALID`.
 pub fn frc(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     if let Some(done) = unit::evaluate(&env.format, UnitOperation::Frc, &[x]) {

@@ -1,8 +1,9 @@
 //! LDR-FLIP: the difference that an observer notices when flipping between two pictures (Andersson, Nilsson,
 //! Akenine-Möller, Oskarsson, Åström and Fairchild, 2020, "FLIP: a difference evaluator for alternating images").
 //!
-//! Colors are filtered by contrast sensitivity and compared by a distance for large differences; where edges or points
-//! appear or vanish, the difference is amplified. Tests compare it with values from the authors' program.
+//! Colors are filtered by contrast sensitivity and compared with a distance that is suitable for large color
+//! differences; where edges or points appear or vanish, the difference is amplified. Tests compare it with values from
+//! the authors' program.
 
 mod color;
 mod features;

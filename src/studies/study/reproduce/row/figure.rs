@@ -102,7 +102,8 @@ pub struct PaperEquation {
     pub uses: Option<String>,
     /// Printed values that determined a constant of the expression.
     pub chose: Option<String>,
-    /// Description of the computation, if it contradicts the printed value whenever its result does not round to that.
+    /// Description of the computation, if a result that does not round to the printed value proves that the paper
+    /// contradicts itself; otherwise `None`.
     pub contradicts: Option<String>,
 }
 
