@@ -109,7 +109,7 @@ fn run(folder: &Path, arguments: &[String], input: &str) -> ProgramOutput {
 }
 
 /// A message if the command does not end as its text states; otherwise `None`. A program without the feature `wgpu` or
-/// `wgsl` may refuse commands that need it, but must name the feature.
+/// `wgsl` may refuse commands that need it, but must say how to build with the feature.
 fn fault(command: &Command) -> Option<String> {
     let root = copy_of_the_repository();
     let (arguments, expected) = match exemption(&command.arguments) {
@@ -119,7 +119,7 @@ fn fault(command: &Command) -> Option<String> {
     };
     let ran = run(root.path(), &arguments, &command.input);
     let of_wgsl = arguments.iter().any(|argument| argument.contains("wgsl"));
-    let lacks = |feature: &str| ran.stderr.contains(&format!("the feature `{feature}` is off"));
+    let lacks = |feature: &str| ran.stderr.contains(&format!("cargo build --release --features {feature}"));
     if (command.with_wgpu && lacks("wgpu")) || (of_wgsl && lacks("wgsl")) {
         return (ran.code != Some(2)).then(|| format!("{}: expected exit code 2\n{}", command.place, ran.transcript()));
     }
