@@ -5,11 +5,7 @@ use crate::{crossbar, crossbar_in};
 
 #[test]
 fn all_scenes_and_one() {
-    let cases = [
-        ("scenes", "scene"),
-        ("scene_office", "scene office"),
-        ("scene_json", "scene cornell-box --json"),
-    ];
+    let cases = [("scenes", "scene"), ("scene_office", "scene office"), ("scene_json", "scene cornell-box --json")];
     let said = cases.map(|(name, line)| (name, crossbar(&line.split(' ').collect::<Vec<_>>(), "").transcript()));
     insta::assert_snapshot!(listed(said));
 }
