@@ -163,16 +163,16 @@ fn usage_problem(error: &clap::Error) -> Problem {
 
 /// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. A message that quotes
 /// hidden characters is plain, and escapes them.
-pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) {
+pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) -> io::Result<()> {
     if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") {
         as_json();
-        return print(usage_problem(error).into());
+        print(usage_problem(error).into());
+        return Ok(());
     }
-    // A closed pipe is not an error.
     match arguments.iter().all(|argument| argument.to_str().is_some_and(|text| visible_line(text) == text)) {
-        true => error.print().ok(),
-        false => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
-    };
+        true => error.print(),
+        false => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()),
+    }
 }
 
 pub(super) fn reader_left(report: &Report) -> bool {

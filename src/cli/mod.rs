@@ -53,7 +53,8 @@ mod version;
 mod view;
 mod words;
 
-use std::{io::Write as _, process::ExitCode};
+use std::io::{ErrorKind, Write as _};
+use std::process::ExitCode;
 
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
@@ -178,9 +179,14 @@ pub fn main() -> ExitCode {
     let (cli, command_line, fits) = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
-            error::print_usage(&error, &arguments);
-            // Help and `--version` come this way too, with code 0.
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
+            return match error::print_usage(&error, &arguments) {
+                Err(failed) if failed.kind() != ErrorKind::BrokenPipe => {
+                    error::print(OutputError::from(failed).into());
+                    ExitCode::from(BAD_INPUT)
+                }
+                // Help and `--version` come this way too, with code 0.
+                _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT)),
+            };
         }
     };
     if cli.json {

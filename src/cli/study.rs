@@ -92,7 +92,8 @@ fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Resu
     found.introduction().iter().try_for_each(|line| out.sentence(line))?;
     for table in found.printed_tables() {
         apart(out)?;
-        out.titled_table(table)?;
+        out.sentence(table.title())?;
+        out.table(table)?;
     }
     let lines: Vec<&String> = found.conclusions().iter().chain(found.printed_lines()).collect();
     if !lines.is_empty() || folder.is_some() {
