@@ -53,7 +53,7 @@ def entries() -> list[tuple[str, str]]: ...
 def reproduce(ids: list[str], full_size: bool) -> str: ...
 def precision(
     case: Case | None,
-    system: tuple[str | None, str | None],
+    system: tuple[str | None, str | None, list[tuple[str, str]]],
     goal: str | None,
     families: list[str],
     budget: int,

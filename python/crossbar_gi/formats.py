@@ -292,7 +292,8 @@ def dot(
         y: The same kind; the shapes broadcast.
         format: The format of operands and result.
         order: ``"sequential"``: ``((a + b) + c) + d``, or ``"tree"``: ``(a + b) + (c + d)``, where each product and
-            each sum is rounded; or ``"exact"``: the exact sum is rounded once.
+            each sum is rounded; ``"exact"``: the exact sum is rounded once; or ``"aligned:F"``, with F from 0 to
+            28: products are rounded, and their aligned sum (docs/numbers.md) is rounded once.
         accumulator: The format in which products and sums are rounded; by default ``format``.
         unit: A unit of :func:`units`, instead of a format: rounding, types and results as in :func:`matmul`.
         c: Only with a unit: an addend, as numbers or bit patterns that broadcast to the result.

@@ -55,7 +55,7 @@ def precision(
         families: ``"float"``, ``"fixed"`` or both.
         budget: Maximum number of runs of the program; after these, the best result so far is returned.
         device: A device that replaces the case's.
-        switches: Switches of the device, for a case.
+        switches: Switches of the device, by name.
         table: The table to return: ``"curve"`` (the measures by format), ``"formats"`` (of cards), ``"measures"``,
             ``"switches"``, or another table of the document.
 
@@ -66,10 +66,10 @@ def precision(
         ValueError: if the case or the goal is rejected, or the document has no such table.
     """
     if isinstance(case, str) and case in SYSTEMS:
-        text = _native.precision(None, (case, device), goal, list(families), budget)
+        text = _native.precision(None, (case, device, list((switches or {}).items())), goal, list(families), budget)
     else:
         read = _read(case, device, None, switches or {}, None, {}, SHADER_SIZE, "bgra8")
-        text = _native.precision(read, (None, None), goal, list(families), budget)
+        text = _native.precision(read, (None, None, []), goal, list(families), budget)
     document = json.loads(text)
     tables = {name: value for name, value in document.items() if isinstance(value, list)}
     if table not in tables:

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crossbar::case::{self, ComparedSides, Loaded, Overrides, Scope, Setup, Side, Traced, device_named};
+use crossbar::case::{self, CaseOutcome, ComparedSides, Loaded, Overrides, Scope, Setup, Side, Traced, device_named};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
 use pyo3::prelude::*;
@@ -74,10 +74,12 @@ impl Case {
         textures: Vec<(usize, PyReadonlyArray3<'_, f32>)>,
     ) -> PyResult<Self> {
         let mut setup = Setup::clone(&self.setup);
+        let count = setup.float_constants();
         let float = &mut setup.pixel_constants.float;
         for (index, value) in constants {
-            if index >= 256 {
-                return Err(value_error(format!("expected a constant from c0 to c255, found c{index}")));
+            if index >= count {
+                let device = &setup.profile.name;
+                return Err(value_error(format!("expected one of the {count} constants of {device}, found c{index}")));
             }
             float.resize(float.len().max(index + 1), [0; 4]);
             // Rounds to nearest even, like the numbers of a case.
@@ -126,9 +128,11 @@ impl Case {
 type DrawnArrays = (String, Vec<Array3<f64>>, Option<Array2<f64>>);
 
 fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseError> {
-    let outcome = case::run(setup, kind)?;
-    let mut loaded = Loaded::new(setup, kind)?;
-    loaded.draw()?;
+    let mut loaded = Loaded::recording(setup, kind)?;
+    let events = loaded.draw()?;
+    // Each call would log another read-back.
+    let (surfaces, depth) = (loaded.targets()?, loaded.depth()?);
+    let outcome = CaseOutcome::new(setup, &events, &surfaces, depth)?;
     let minimum = setup.profile.rules.signed_texel_minimum;
     let numbers = |target: &Image| {
         let (height, width) = (target.height(), target.width());
@@ -136,8 +140,8 @@ fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseErr
             target.texel(0, 0, y as u32, x as u32, minimum).to_f64()[channel]
         })
     };
-    let targets: Vec<Array3<f64>> = loaded.targets()?.into_iter().map(numbers).collect();
-    let depth = loaded.depth()?.map(|surface| {
+    let targets: Vec<Array3<f64>> = surfaces.into_iter().map(numbers).collect();
+    let depth = depth.map(|surface| {
         let [width, height] = setup.size.map(|side| side as usize);
         Array2::from_shape_fn((height, width), |(y, x)| {
             let stored = surface.get(x as u32, y as u32).unwrap_or_default();
@@ -145,7 +149,7 @@ fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseErr
         })
     });
     let mut document = outcome.document(setup);
-    document["modelled"] = modelled(setup, &case::log(setup, kind)?);
+    document["modelled"] = modelled(setup, &loaded.take_log());
     Ok((document.to_string(), targets, depth))
 }
 

@@ -77,13 +77,13 @@ impl Computation {
 
     /// Computes from the definition. Under stochastic rounding, operands are rounded to nearest even, and the index of
     /// the result selects the random word.
-    fn each<T: Copy + Default>(
+    fn each<T: Copy + Default, R>(
         &self,
         operands: [&[T]; 3],
-        out: &mut [T],
+        out: &mut [R],
         start: usize,
         read: impl Fn(T, Format) -> u32,
-        write: impl Fn(u32) -> T,
+        write: impl Fn(u32) -> R,
     ) {
         let Self::Single { format, operation, seed } = *self else { return };
         for (place, out) in out.iter_mut().enumerate() {
@@ -197,15 +197,9 @@ pub(crate) fn to_patterns(
     let format = parse(format)?;
     let numbers = [numbers];
     refuse_nan(&format, &numbers)?;
-    over(py, &numbers, &mut out, &format, |format, [numbers, ..], out, start| {
-        for (place, out) in out.iter_mut().enumerate() {
-            let number = if numbers.len() == 1 { numbers[0] } else { numbers[place] };
-            let mut own = *format;
-            if let Rounding::Stochastic(word) = &mut own.rounding {
-                *word = random_word(seed, (start + place) as u64);
-            }
-            *out = num::from_f64(own, number).bits;
-        }
+    let rounding = Computation::Single { format, operation: None, seed };
+    over(py, &numbers, &mut out, &rounding, |rounding, numbers, out, start| {
+        rounding.each(numbers, out, start, |number, own| num::from_f64(own, number).bits, |bits| bits);
     })
 }
 
@@ -218,10 +212,9 @@ pub(crate) fn from_patterns(
     mut out: PyReadwriteArrayDyn<'_, f64>,
 ) -> PyResult<()> {
     let format = parse(format)?;
-    over(py, &[patterns], &mut out, &format, |format, [patterns, ..], out, _| {
-        for (place, out) in out.iter_mut().enumerate() {
-            *out = num::to_f64(format, if patterns.len() == 1 { patterns[0] } else { patterns[place] });
-        }
+    let reading = Computation::Single { format, operation: None, seed: 0 };
+    over(py, &[patterns], &mut out, &reading, |reading, patterns, out, start| {
+        reading.each(patterns, out, start, |bits, _| bits, |bits| num::to_f64(&format, bits));
     })
 }
 

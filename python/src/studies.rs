@@ -12,6 +12,7 @@ use crossbar::study::{Study as _, StudyError};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
+use refsim::device::DeviceError;
 
 use crate::cases::Case;
 use crate::error::{refused, value_error};
@@ -32,12 +33,12 @@ pub(crate) fn reproduce(py: Python<'_>, ids: Vec<String>, full_size: bool) -> Py
     found.map_err(|error: StudyError| refused(&error))
 }
 
-/// JSON document of a search for the fewest bits, for a case or for a system on a device.
+/// JSON document of a search for the fewest bits, for a case or for a system on a device with switches.
 #[pyfunction]
 pub(crate) fn precision(
     py: Python<'_>,
     case: Option<&Case>,
-    system: (Option<&str>, Option<&str>),
+    system: (Option<&str>, Option<&str>, Vec<(String, String)>),
     goal: Option<&str>,
     families: Vec<String>,
     budget: u64,
@@ -49,11 +50,15 @@ pub(crate) fn precision(
     };
     let families = families.iter().map(family).collect::<PyResult<Vec<_>>>()?;
     let goal = goal.map(Goal::from_str).transpose().map_err(|error| value_error(error.to_string()))?;
-    let (system, device) = system;
+    let (system, device, switches) = system;
     let system = system.map(PaperSystem::from_str).transpose();
     let system = system.map_err(|_| value_error("expected a system, found another name"))?;
-    let profile = system.map(|system| device_named(device.unwrap_or(system.card()))).transpose();
-    let profile = profile.map_err(|error| refused(&error))?;
+    let set = |system: PaperSystem| {
+        let mut profile = device_named(device.unwrap_or(system.card()))?;
+        switches.iter().try_for_each(|(name, value)| profile.set_switch(name, value))?;
+        Ok(profile)
+    };
+    let profile = system.map(set).transpose().map_err(|error: DeviceError| refused(&error))?;
     let case = case.map(|case| (Setup::clone(&case.setup), case.name.clone()));
     let found = signals::study(py, move |progress| {
         let subject = match (case, system.zip(profile)) {

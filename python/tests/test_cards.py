@@ -107,6 +107,7 @@ def test_pictures():
         (lambda: cg.run(HIGHLIGHT, executor="fast"), 'expected the executor "scalar" or "batch", found "fast"'),
         (lambda: cg.run(HIGHLIGHT, inputs={"x": [1]}), r"expected inputs named c0, c1, ... \(constants\)"),
         (lambda: cg.run(HIGHLIGHT, inputs={"c0": [1, 2]}), r"expected 4 numbers for c0, found shape \(2,\)"),
+        (lambda: cg.run(HIGHLIGHT, inputs={"c8": [1, 0, 0, 0]}), "expected one of the 8 constants of r200, found c8"),
         (
             lambda: cg.run(HIGHLIGHT, inputs={"t0": np.ones((2, 2, 4))}),
             "expected a texture that the case binds, found t0",
@@ -136,6 +137,8 @@ def test_studies_are_records():
     assert curve and all(isinstance(row, dict) for row in curve)
     with pytest.raises(ValueError, match="expected one of the tables"):
         cg.precision("docs/examples/lerp.toml", families=["fixed"], budget=50, table="none")
+    with pytest.raises(ValueError, match="sparkle"):
+        cg.precision("cpca", switches={"sparkle": "on"})
     with pytest.raises(ValueError, match="expected a goal as `largest_codes<=1`"):
         cg.precision("docs/examples/lerp.toml", goal="small")
 

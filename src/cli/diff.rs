@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::study::{self, StudyArgs, StudyFiles};
-use super::{CommandLine, Out, view};
-use crate::report::Verdict;
+use super::study::{StudyArgs, StudyFiles};
+use super::view;
 use crate::study::picture_difference::{DifferenceOptions, PictureDifference, PictureInput};
 
 const EXAMPLES: &str = "\
@@ -42,11 +41,6 @@ pub(super) struct Args {
     /// Write the maps of differences, the page and the tables to this folder [default: write nothing]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-}
-
-pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
-    out.outlive_reader();
-    study::run(args, command_line, out)
 }
 
 impl StudyArgs for Args {

@@ -3,11 +3,12 @@
 use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, IsTerminal as _, Write as _};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::error::ContextKind;
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteDiagnostic, MietteHandlerOpts, Report,
-    ReportHandler,
+    ReportHandler, Severity,
 };
 
 use refsim::device::DeviceError;
@@ -21,6 +22,13 @@ use crate::report::visible::{visible, visible_json, visible_line};
 
 /// Width of tables and errors in a file or pipe, so that the text does not depend on a terminal.
 pub(super) const PLAIN_WIDTH: usize = 100;
+
+/// `true` with `--json`: errors and warnings are JSON.
+static AS_JSON: AtomicBool = AtomicBool::new(false);
+
+pub(super) fn as_json() {
+    AS_JSON.store(true, Ordering::Relaxed);
+}
 
 /// Standard output could not be written.
 #[derive(Debug, thiserror::Error, Diagnostic)]
@@ -107,13 +115,13 @@ pub(super) fn render_finding(finding: &dyn Diagnostic) -> String {
     render(finding, io::stdout().is_terminal())
 }
 
-pub(super) fn print(report: Report, json: bool) {
-    write_report("Error", &suggested(report), json);
+pub(super) fn print(report: Report) {
+    write_report("Error", &suggested(report));
 }
 
 /// Writes a report to standard error; failures are ignored.
-fn write_report(severity: &str, report: &Report, json: bool) {
-    let text = if json {
+fn write_report(severity: &str, report: &Report) {
+    let text = if AS_JSON.load(Ordering::Relaxed) {
         let mut text = String::new();
         // Writing to a string cannot fail.
         JSONReportHandler::new().render_report(&mut text, report.as_ref()).ok();
@@ -124,11 +132,18 @@ fn write_report(severity: &str, report: &Report, json: bool) {
     writeln!(io::stderr().lock(), "{}", text.trim_end()).ok();
 }
 
-/// Writes warnings to standard error, each once.
-pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warnings: &[W], json: bool) {
-    for warning in warnings {
-        write_report("Warning", &Report::new(warning.clone()), json);
+/// Writes a warning to standard error.
+pub(super) fn warn(warning: impl Diagnostic + Send + Sync + 'static) {
+    write_report("Warning", &Report::new(warning));
+}
+
+/// Writes a warning without source text to standard error, as one line.
+pub(super) fn warn_line(text: &str) {
+    if AS_JSON.load(Ordering::Relaxed) {
+        return warn(MietteDiagnostic::new(text).with_severity(Severity::Warning));
     }
+    // A failed write is ignored.
+    writeln!(io::stderr().lock(), "warning: {}", visible_line(text)).ok();
 }
 
 /// A usage error without the parser's advice to write an unknown option as a value; no command has such values.
@@ -147,16 +162,17 @@ fn usage_problem(error: &clap::Error) -> Problem {
 }
 
 /// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. A message that quotes
-/// characters that are not safe to show is plain, and escapes them.
-pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) {
+/// hidden characters is plain, and escapes them.
+pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) -> io::Result<()> {
     if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") {
-        return print(usage_problem(error).into(), true);
+        as_json();
+        print(usage_problem(error).into());
+        return Ok(());
     }
-    // A closed pipe is not an error.
     match arguments.iter().all(|argument| argument.to_str().is_some_and(|text| visible_line(text) == text)) {
-        true => error.print().ok(),
-        false => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
-    };
+        true => error.print(),
+        false => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()),
+    }
 }
 
 pub(super) fn reader_left(report: &Report) -> bool {

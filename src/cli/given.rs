@@ -1,11 +1,13 @@
 //! Errors for options that another option makes useless, and for words that are neither names nor files.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
 use super::{Problem, outputs};
+use crate::io::require_writable;
 use crate::names::did_you_mean;
 
 /// Rejects the first option that was given; each option is paired with `true` if it was. `only_for` completes the
@@ -38,6 +40,36 @@ pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result
                 arg.get_long().unwrap_or_default()
             );
             return Err(Problem::usage(what, "remove one of the two"));
+        }
+    }
+    Ok(())
+}
+
+/// Options that name a file to write; `--out` may also name a folder, which its command checks.
+const WRITTEN: [&str; 4] = ["out", "perfetto", "sheet", "matrix"];
+
+/// Rejects a file to be written whose folder is not writable, before long work, and one that is also an input. Fails
+/// with a [`Problem`].
+pub(super) fn refuse_places(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
+    let (command, matches) = outputs::obeyed(program, matches);
+    let given = |arg: &&Arg| matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine);
+    let paths = |arg: &Arg| {
+        let values = matches.get_raw(arg.get_id().as_str()).into_iter().flatten();
+        // A link is followed.
+        values.map(|value| Path::new(value).canonicalize().unwrap_or_else(|_| value.into())).collect::<Vec<PathBuf>>()
+    };
+    let is_folder = |arg: &Arg| arg.get_value_names().into_iter().flatten().any(|name| name == "DIR");
+    let (written, read): (Vec<&Arg>, Vec<&Arg>) =
+        command.get_arguments().filter(given).partition(|arg| WRITTEN.contains(&arg.get_id().as_str()));
+    for arg in written.into_iter().filter(|arg| !is_folder(arg)) {
+        let option = arg.get_long().unwrap_or_default();
+        // Devices and pipes are written to directly.
+        for path in paths(arg).into_iter().filter(|path| path.is_file() || !path.exists()) {
+            if path.is_file() && read.iter().any(|read| paths(read).contains(&path)) {
+                return Err(Problem::usage(format!("`--{option}` would overwrite an input"), "give another file"));
+            }
+            let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+            require_writable(folder)?;
         }
     }
     Ok(())

@@ -11,7 +11,7 @@ use serde_json::json;
 
 use super::executor::{Decider, engine_executor};
 use super::words::counted;
-use super::{Out, Problem, Verdict, given, model_file, study, view};
+use super::{Out, Problem, Verdict, error, given, model_file, study, view};
 use crate::case::device_named;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::vector::wide;
@@ -172,17 +172,17 @@ fn findings(args: &Args, answer: &Answer) -> Findings {
     let (rays, hits) = (hits.len(), hits.iter().flatten().count());
     let mut found = Findings::new("First hits");
     found.fields(json!({ "rays": rays, "hits": hits, "out": args.out }));
-    // Failed writes to standard error are ignored.
     if args.time {
         let rate = rays as f64 / cast_s.max(1e-9);
         found.field("time", json!({ "build_s": build_s, "cast_s": cast_s, "rays_per_s": rate }));
         let rate = rate / 1e6;
+        // A failed write is ignored.
         writeln!(std::io::stderr().lock(), "time: {cast_s:.4} s to cast, {rate:.3} M rays/s; {build_s:.4} s to build")
             .ok();
     }
     if let Some(warning) = warning {
         found.field("warning", json!(warning));
-        writeln!(std::io::stderr().lock(), "warning: {warning}").ok();
+        error::warn_line(warning);
     }
     if let Some(engine) = engine {
         engine.report(&mut found);

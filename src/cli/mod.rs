@@ -53,7 +53,8 @@ mod version;
 mod view;
 mod words;
 
-use std::{io::Write as _, process::ExitCode};
+use std::io::{ErrorKind, Write as _};
+use std::process::ExitCode;
 
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
@@ -161,7 +162,9 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
     let mut program = program();
     let matches = program.try_get_matches_from_mut(arguments).map_err(error::without_tip)?;
     let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
-    let fits = given::refuse_repeated(&program, &matches).and_then(|()| model_file::choose(&program, &matches));
+    let fits = given::refuse_repeated(&program, &matches)
+        .and_then(|()| given::refuse_places(&program, &matches))
+        .and_then(|()| model_file::choose(&program, &matches));
     Ok((cli, resolved::command_line(&program, &matches), fits))
 }
 
@@ -176,11 +179,19 @@ pub fn main() -> ExitCode {
     let (cli, command_line, fits) = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
-            error::print_usage(&error, &arguments);
-            // Help and `--version` come this way too, with code 0.
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
+            return match error::print_usage(&error, &arguments) {
+                Err(failed) if failed.kind() != ErrorKind::BrokenPipe => {
+                    error::print(OutputError::from(failed).into());
+                    ExitCode::from(BAD_INPUT)
+                }
+                // Help and `--version` come this way too, with code 0.
+                _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT)),
+            };
         }
     };
+    if cli.json {
+        error::as_json();
+    }
     if cli.json || cli.quiet {
         progress::silence();
     }
@@ -188,7 +199,7 @@ pub fn main() -> ExitCode {
     let threads = cli.threads.map_or(0, usize::from);
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().ok();
     if let Err(problem) = fits {
-        error::print(problem.into(), cli.json);
+        error::print(problem.into());
         return ExitCode::from(BAD_INPUT);
     }
     let mut out = Out::new(cli.json);
@@ -203,7 +214,7 @@ pub fn main() -> ExitCode {
         Err(report) => {
             // Findings made before the error are written first.
             out.flush().ok();
-            error::print(report, cli.json);
+            error::print(report);
             ExitCode::from(BAD_INPUT)
         }
     }
@@ -220,7 +231,7 @@ fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::
         Command::Completions(args) => completions::run(&args, program(), out),
         Command::Cpca(args) => cpca::run(&args, command_line, out),
         Command::Devices(args) => devices::run(&args, out),
-        Command::Diff(args) => diff::run(&args, command_line, out),
+        Command::Diff(args) => study::run(&args, command_line, out),
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, program(), out),

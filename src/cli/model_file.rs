@@ -1,16 +1,14 @@
 //! Model files, for all commands that read them: options, reading, and the notes about a model.
 
 use std::collections::BTreeSet;
-use std::io::Write as _;
 use std::path::Path;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
-use super::{Problem, given, outputs};
+use super::{Problem, error, given, outputs};
 use crate::geom::Mesh;
 use crate::io::{ModelNote, ModelOptions, UpAxis, load_mesh_with, scene_file};
-use crate::report::visible::visible_line;
 use crate::scene::Scene;
 
 /// Names of arguments that take a model; only the first one that a command has counts.
@@ -106,10 +104,8 @@ fn tell(path: &Path, notes: &[ModelNote]) {
         if !note.starts_with(&format!("{path}:")) {
             note = format!("{path}: {note}");
         }
-        let line = visible_line(&format!("warning: {note}")).into_owned();
-        if told.insert(line.clone()) {
-            // A failed write is ignored.
-            writeln!(std::io::stderr().lock(), "{line}").ok();
+        if told.insert(note.clone()) {
+            error::warn_line(&note);
         }
     }
 }

@@ -61,12 +61,6 @@ impl Out {
         table.notes().into_iter().try_for_each(|note| self.sentence(note))
     }
 
-    /// Writes a table under its title. Fails if standard output cannot be written.
-    pub fn titled_table(&mut self, table: &Table) -> Result<(), OutputError> {
-        self.sentence(table.title())?;
-        self.table(table)
-    }
-
     /// Writes a table as JSON, or as text with sentences below it. Fails if standard output cannot be written.
     pub fn listing(&mut self, table: &Table, below: &[&str]) -> Result<(), OutputError> {
         if self.json {

@@ -7,7 +7,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
 /// Options that change no result: the output folder, the executor and its adapter, messages.
-const WITHOUT_EFFECT: [&str; 6] = ["out", "executor", "json", "threads", "help", "resume"];
+const WITHOUT_EFFECT: [&str; 7] = ["out", "executor", "json", "threads", "quiet", "help", "resume"];
 
 #[derive(Debug)]
 pub(super) struct CommandLine {

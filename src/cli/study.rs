@@ -44,6 +44,7 @@ impl<'a> StudyFiles<'a> {
 pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let study = args.study()?;
     let StudyFiles { folder, inputs } = args.files();
+    out.outlive_reader();
     // Checked before the long work, so that an unwritable folder is found at once.
     folder.map(require_writable).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1).quicker(A::QUICKER);
@@ -65,6 +66,7 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut 
 
 /// Shows the findings of a command without a page: the JSON document, or tables and lines.
 pub(super) fn show(found: &Findings, out: &mut Out) -> miette::Result<Verdict> {
+    out.outlive_reader();
     if out.json() {
         out.document(&found.plain_document())?;
     } else {
@@ -90,7 +92,8 @@ fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Resu
     found.introduction().iter().try_for_each(|line| out.sentence(line))?;
     for table in found.printed_tables() {
         apart(out)?;
-        out.titled_table(table)?;
+        out.sentence(table.title())?;
+        out.table(table)?;
     }
     let lines: Vec<&String> = found.conclusions().iter().chain(found.printed_lines()).collect();
     if !lines.is_empty() || folder.is_some() {

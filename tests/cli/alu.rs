@@ -116,7 +116,7 @@ fn a_bad_line_comes_after_the_results_before_it() {
     assert!(ran.stderr.contains("line 10001"), "{}", ran.stderr);
 }
 
-/// A reader that closes the pipe early ends the program quietly; with `--verify` it still reports its verdict.
+/// A reader that closes the pipe early ends the program quietly; a command that checks still reports its verdict.
 #[test]
 #[cfg(unix)]
 fn a_closed_pipe_is_no_error() {
@@ -133,7 +133,7 @@ fn a_closed_pipe_is_no_error() {
         drop(child.stdout.take());
         let mut stdin = child.stdin.take().expect("a pipe was asked for");
         let input = line.repeat(100_000);
-        // The program may end before it has read everything.
+        // The program may end before it has read everything, or read nothing.
         std::io::Write::write_all(&mut stdin, input.as_bytes()).ok();
         drop(stdin);
         let output = child.wait_with_output().expect("the program runs to its end");
@@ -142,6 +142,11 @@ fn a_closed_pipe_is_no_error() {
     };
     assert_eq!(run(&["alu", "sqrt", "--format", "fp16"], "4400\n"), Some(0));
     assert_eq!(run(&["alu", "sqrt", "--format", "fp16", "--verify"], "4400 4001\n"), Some(1));
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = crate::answers::place(folder.path(), "out");
+    let failing = ["x/3", "--goal", "mean_relative<=0", "--samples", "9", "--quiet", "--out", &out];
+    assert_eq!(run(&[&["precision", "--expr"], &failing[..]].concat(), ""), Some(1));
+    assert_eq!(run(&["diff", "docs/examples/exact.png", "docs/examples/leaky.png"], ""), Some(1));
 }
 
 #[test]

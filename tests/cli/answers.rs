@@ -75,21 +75,6 @@ pub(crate) fn refused_line(line: &str) -> String {
     refused(&line.split_whitespace().collect::<Vec<_>>())
 }
 
-/// Messages of refused runs of a command in fresh folders with these files, for one snapshot; no run leaves anything.
-pub(crate) fn refusals(
-    command: &[&str],
-    files: &[(&str, impl AsRef<[u8]>)],
-    cases: &[(&'static str, &[&str])],
-) -> String {
-    listed(cases.iter().map(|(name, arguments)| {
-        let folder = folder_with(files);
-        let ran = crossbar_in(folder.path(), &[command, arguments].concat(), "");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
-        assert_eq!(names_in(folder.path()).len(), files.len(), "{name} left something behind");
-        (*name, ran.stderr)
-    }))
-}
-
 /// The names of a folder's entries, sorted.
 pub(crate) fn names_in(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("a folder").flatten();

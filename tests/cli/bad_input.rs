@@ -14,13 +14,12 @@ fn errors_for_machines() {
 #[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk() {
-    let full = std::fs::File::create("/dev/full").expect("the device that is always full");
-    let output = std::process::Command::new(crate::program::path())
-        .arg("devices")
-        .stdout(full)
-        .output()
-        .expect("the program runs to its end");
-    assert_eq!(output.status.code(), Some(2));
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert!(stderr.contains("standard output cannot be written"), "{stderr}");
+    for argument in ["devices", "--help"] {
+        let full = std::fs::File::create("/dev/full").expect("the device that is always full");
+        let output = std::process::Command::new(crate::program::path()).arg(argument).stdout(full).output();
+        let output = output.expect("the program runs to its end");
+        assert_eq!(output.status.code(), Some(2), "{argument}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(stderr.contains("standard output cannot be written"), "{stderr}");
+    }
 }

@@ -42,6 +42,9 @@ fn constants_of_opengl_programs_have_the_programs_names() {
         },
     );
     insta::assert_snapshot!(said.join("----\n"));
+    fs::write(folder.path().join("case.toml"), nv.replace("tint", "c0 = [1, 0, 0, 0]\ntint")).expect("a file");
+    let twice = crossbar_in(folder.path(), &["run", "case.toml"], "").refusal("one constant by two names");
+    assert!(twice.contains("`c0` and `p[0]` are the same constant"), "{twice}");
 }
 
 #[test]

@@ -1,8 +1,8 @@
-//! `crossbar compare` and `crossbar run --trace`: equal sides, differences derived by hand, and bad input.
+//! `crossbar compare` and `crossbar run --trace`: equal sides, differences derived by hand.
 
 use serde_json::{Value, json};
 
-use crate::answers::{folder_with, listed, refusals};
+use crate::answers::{folder_with, listed};
 use crate::{ProgramOutput, case::CASES, case::example, crossbar_in};
 
 /// Runs the program on `text` as `case.toml` in a new folder.
@@ -90,24 +90,6 @@ fn two_roundings() {
 fn a_device_without_a_switch_of_the_case() {
     let ran = crossbar_in(&fixtures(), &["compare", "modulate.toml", "--right-device", "r300"], "");
     insta::assert_snapshot!(ran.transcript());
-}
-
-#[test]
-fn bad_sides() {
-    let plain = PLAIN.replace("PROGRAM", "mov r0, c0\nmov oC0, r0");
-    let cases = [
-        ("the_same", &["--left", "batch", "--right", "batch"][..]),
-        ("unknown_device", &["--right-device", "r2000"]),
-        ("unknown_format", &["--left-format", "fp17"]),
-        ("unknown_switch", &["--right-switch", "sparkle=on"]),
-        ("switch_without_value", &["--right-switch", "rounding"]),
-        ("version_of_another_device", &["--right-device", "r200"]),
-        ("unknown_executor", &["--right", "abacus"]),
-        ("pixel_outside", &["--pixel", "4,0"]),
-        ("no_pixel", &["--pixel", "4"]),
-        ("pixel_and_registers", &["--pixel", "1,1", "--registers"]),
-    ];
-    insta::assert_snapshot!(refusals(&["compare", "case.toml"], &[("case.toml", plain)], &cases));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png};
 
-use crate::answers::{folder_with, listed, refusals};
+use crate::answers::{folder_with, listed, names_in};
 use crate::{ProgramOutput, crossbar_in};
 
 /// A color gradient of 16 x 12 pixels.
@@ -85,7 +85,13 @@ fn bad_input() {
         ("ppd", &["a.exr", "a.exr", "--ppd", "0.5"]),
         ("window", &["a.exr", "a.exr", "--min-ssim", "nan"]),
     ];
-    insta::assert_snapshot!(refusals(&["diff", "--out", "maps"], &files(), &cases));
+    insta::assert_snapshot!(listed(cases.map(|(name, arguments)| {
+        let folder = folder_with(&files());
+        let ran = diff(folder.path(), &[arguments, &["--out", "maps"]].concat());
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
+        assert_eq!(names_in(folder.path()).len(), files().len(), "{name} left something behind");
+        (name, ran.stderr)
+    })));
 }
 
 #[test]

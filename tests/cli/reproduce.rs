@@ -7,16 +7,6 @@ fn the_list_says_what_there_is() {
     insta::assert_snapshot!(crossbar(&["reproduce", "--list"], "").transcript());
 }
 
-#[test]
-fn an_unknown_entry_is_refused_before_anything_is_written() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let ran = crossbar_in(folder.path(), &["reproduce", "table-9"], "");
-    assert_eq!(std::fs::read_dir(folder.path()).expect("it is there").count(), 0);
-    insta::assert_snapshot!(ran.transcript());
-    let slip = crossbar_in(folder.path(), &["reproduce", "cpca-figure7"], "");
-    assert!(slip.stderr.contains("did you mean `cpca-figure-7`?"), "{}", slip.stderr);
-}
-
 /// Snapshot of the figures, which reveals changes of the model.
 #[test]
 fn the_rows_are_these() {

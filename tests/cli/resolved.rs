@@ -21,7 +21,9 @@ fn resolved_line(line: &str) -> String {
 #[test]
 fn defaults_are_filled_in_and_what_changes_nothing_is_left_out() {
     assert_eq!(
-        resolved_line("leaky-teapot --format fp16 --size 8x8 --tessellation 1 --out x --executor scalar"),
+        resolved_line(
+            "leaky-teapot --format fp16 --size 8x8 --tessellation 1 --out x --executor scalar -q --threads 2"
+        ),
         "crossbar leaky-teapot --size 8x8 --tessellation 1 --format fp16 --rays-per-edge 4 --sides front"
     );
     let line = "reproduce ray-engine-figure-7 ray-engine-equation-11";

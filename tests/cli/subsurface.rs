@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
+use crossbar::report::layout::wrapped;
 use rayon::prelude::*;
 
 use crate::answers::{folder_with, names_in, words};
@@ -94,7 +95,7 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     let begin = "With 64 links per texel, by the angle between normal and light, ";
     let spoken = words(&ran.stdout);
     let sentence = spoken.split(begin).nth(1).and_then(|rest| rest.split(". ").next()).expect("the sentence");
-    let expected = format!("\n\n{head}{body}\n{}\n\n", wrapped(&format!("{begin}{sentence}.")));
+    let expected = format!("\n\n{head}{body}\n{}\n\n", wrapped(&format!("{begin}{sentence}."), 120, "").join("\n"));
     hold_on_page("angles", angles(), &expected);
 }
 
@@ -160,22 +161,6 @@ fn the_page_says_how_errors_grow_with_the_model() {
         assert!(adaptive > 1.5 * fixed && more < 0.5 * adaptive, "{fixed}, {adaptive}, {more}");
     }
     hold_on_page("sizes", &command("4"), &format!("{text}\n"));
-}
-
-/// Wraps the text into lines of at most 120 characters.
-fn wrapped(text: &str) -> String {
-    let mut lines: Vec<String> = vec![String::new()];
-    for word in text.split(' ') {
-        match lines.last_mut() {
-            Some(line) if line.is_empty() => line.push_str(word),
-            Some(line) if line.len() + 1 + word.len() <= 120 => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines.join("\n")
 }
 
 /// Help, page and program agree on the largest atlas for which all pairs are gathered by default.

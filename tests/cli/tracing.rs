@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::answers::{line_in, names_in, refusals};
+use crate::answers::{line_in, names_in};
 use crate::crossbar_in;
 
 fn in_project(path: &str) -> String {
@@ -61,34 +61,6 @@ fn short_formats_leak_into_the_room() {
         assert!(cell(0, name) == 0.0 && cell(1, name) > 0.0, "{name}: {report}");
     }
     assert!(cell(0, "rays") == cell(1, "rays") && cell(0, "on_card_percent") > 50.0, "{report}");
-}
-
-#[test]
-fn casters_refuse_what_is_not_for_them() {
-    let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
-    let cases: [(&str, &[&str]); 9] = [
-        ("device_of_the_host", &["--caster", "host", "--device", "r300"]),
-        ("executor_of_the_host", &["--caster", "host", "--executor", "batch"]),
-        ("engine_in_exact_arithmetic", &["--caster", "engine", "--executor", "exact"]),
-        ("engine_without_programs", &["--caster", "engine", "--caster-device", "nv25"]),
-        ("passes_of_the_host", &["--caster", "host", "--pass-rays", "8"]),
-        ("two_formats", &["--caster", "engine", "--caster-format", "fp16", "--caster-format", "fp24"]),
-        ("no_triangles", &["--caster", "engine", "--pass-triangles", "9,8"]),
-        ("unknown_mode", &["--caster", "engine", "--readback", "async"]),
-        ("unknown_caster", &["--caster", "card"]),
-    ];
-    let all = ["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "hits.csv"];
-    insta::assert_snapshot!(refusals(&all, &[("", ""); 0], &cases));
-}
-
-#[test]
-fn the_wrong_option_is_named() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mesh = in_project("fixtures/models/square.obj");
-    let ran = crossbar_in(folder.path(), &["render", &mesh, "--tan-half-height", "0"], "");
-    assert_eq!(ran.code, Some(2), "{}", ran.transcript());
-    // The eye that is derived from the tangent is infinite, but the user did not give it.
-    assert!(ran.stderr.contains("tangent") && !ran.stderr.contains("eye"), "{}", ran.stderr);
 }
 
 #[test]

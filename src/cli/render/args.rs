@@ -32,8 +32,7 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
-    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a built-in scene: cornell-box, harbour,
-    /// office, office-floor, teapot-room, white-box
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a built-in scene: see `crossbar scene`
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
 

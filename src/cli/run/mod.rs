@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let executor = args.executor.open()?;
     let overrides = Overrides { uniforms: args.uniform.clone(), ..Overrides::default() };
     let setup = Setup::read_with(&args.case, &overrides)?;
-    error::print_warnings(&setup.warnings, out.json());
+    setup.warnings.iter().cloned().for_each(error::warn);
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;
     let traced = traced.as_ref().map(|trace| Traced { setup: &setup, trace });
@@ -67,7 +67,6 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     require_writable(&folder).map_err(Problem::from)?;
     let outcome = case::run(&setup, &executor)?;
     let written = write_files(&folder, &outcome.pictures).map_err(Problem::from)?;
-    out.outlive_reader();
     let mut found = findings(&setup, args, &outcome, &written);
     if let Some(traced) = &traced {
         found.field("trace", traced.document());

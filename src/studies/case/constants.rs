@@ -36,10 +36,16 @@ impl Binder<'_> {
         profile: &Profile,
     ) -> Result<Constants, CaseError> {
         let mut constants = Constants::default();
+        // OpenGL's constants have two names each.
+        let mut floats = BTreeMap::new();
         for (name, value) in written {
             let span = value.span();
             match (self.constant_target(name, program, profile, span.clone())?, value.get_ref()) {
                 (ConstantTarget::Float(number), Constant::Vector(numbers)) => {
+                    if let Some(other) = floats.insert(number, name) {
+                        let message = format!("`{other}` and `{name}` are the same constant");
+                        return Err(self.place.wrong(span, message, "keep one of the two"));
+                    }
                     *place_at(&mut constants.float, number) = self.four(numbers, span)?;
                 }
                 (ConstantTarget::Named(width), Constant::Vector(numbers)) => {
@@ -81,11 +87,7 @@ impl Binder<'_> {
             return Ok(ConstantTarget::Named(parameter.width));
         }
         let opengl = program.version.is_fragment_program();
-        let count = |file| registers(file, program.version, profile).unwrap_or(0);
-        let counts = match opengl {
-            true => [256, 0, 0],
-            false => [RegisterFile::Constant, RegisterFile::ConstantInt, RegisterFile::ConstantBool].map(count),
-        };
+        let counts = counts(program.version, profile);
         let file = name.chars().next().and_then(|letter| "cib".find(letter));
         match (file, file.and_then(|file| register(name, counts[file] as usize))) {
             (Some(0), Some(number)) => return Ok(ConstantTarget::Float(number)),
@@ -113,6 +115,15 @@ impl Binder<'_> {
             names => format!("{meant}the program declares {}", names.join(", ")),
         };
         Err(self.place.wrong(span, message, help))
+    }
+}
+
+/// Numbers of constants `c#`, `i#` and `b#` of a program's version on a device.
+pub(super) fn counts(version: Version, profile: &Profile) -> [u32; 3] {
+    let count = |file| registers(file, version, profile).unwrap_or(0);
+    match version.is_fragment_program() {
+        true => [256, 0, 0],
+        false => [RegisterFile::Constant, RegisterFile::ConstantInt, RegisterFile::ConstantBool].map(count),
     }
 }
 

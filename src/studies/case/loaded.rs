@@ -57,6 +57,28 @@ impl<'s> Loaded<'s> {
         Ok(Self { setup, machine, targets, depth, samplers, streams: streams(setup) })
     }
 
+    /// Like [`Loaded::new`], on a machine that records its log for [`Loaded::take_log`].
+    pub fn recording(setup: &'s Setup, executor: impl Into<Executor>) -> Result<Self, CaseError> {
+        Self::observed(setup, executor.into(), None)
+    }
+
+    fn observed(
+        setup: &'s Setup,
+        executor: Executor,
+        observer: Option<Box<dyn TexelObserver>>,
+    ) -> Result<Self, CaseError> {
+        let mut machine = executor.machine(setup.profile.clone())?;
+        machine.record(true);
+        machine.observe_textures(observer);
+        Self::on(machine, setup)
+    }
+
+    /// Takes the machine's log: texture uploads, clears, the draw, and each read-back of a target or the depth buffer.
+    /// The log is the same for every executor.
+    pub fn take_log(&mut self) -> Vec<Event> {
+        self.machine.take_log()
+    }
+
     /// Draws. Fails if the device cannot execute the case.
     pub fn draw(&mut self) -> Result<DrawEvents, CaseError> {
         // Separate borrows: only the machine is borrowed mutably.
@@ -95,30 +117,22 @@ impl<'s> Loaded<'s> {
     }
 }
 
-/// The machine's log of a draw, the input of the timing model: texture uploads, clears, the draw, read-back of targets
-/// and depth buffer. The log is the same for every executor. Fails if the device cannot execute the case.
+/// The log of a draw and of one read-back of each target and the depth buffer, the input of the timing model. Fails if
+/// the device cannot execute the case.
 pub fn log(setup: &Setup, executor: impl Into<Executor>) -> Result<Vec<Event>, CaseError> {
-    log_of(setup, executor.into(), None)
+    log_of(Loaded::recording(setup, executor)?)
 }
 
 /// Like [`log`], with an observer of every texel read, on the scalar executor, which is slow.
 pub fn log_observed(setup: &Setup, observer: Box<dyn TexelObserver>) -> Result<Vec<Event>, CaseError> {
-    log_of(setup, ExecutorKind::Scalar.into(), Some(observer))
+    log_of(Loaded::observed(setup, ExecutorKind::Scalar.into(), Some(observer))?)
 }
 
-fn log_of(
-    setup: &Setup,
-    executor: Executor,
-    observer: Option<Box<dyn TexelObserver>>,
-) -> Result<Vec<Event>, CaseError> {
-    let mut machine = executor.machine(setup.profile.clone())?;
-    machine.record(true);
-    machine.observe_textures(observer);
-    let mut loaded = Loaded::on(machine, setup)?;
+fn log_of(mut loaded: Loaded<'_>) -> Result<Vec<Event>, CaseError> {
     loaded.draw()?;
     loaded.targets()?;
     loaded.depth()?;
-    Ok(loaded.machine.take_log())
+    Ok(loaded.take_log())
 }
 
 /// Constants of the pixel program, as instructions read them.

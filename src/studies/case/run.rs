@@ -5,11 +5,15 @@ use refsim::{
     event::DrawEvents,
     machine::Executor,
     num::Format,
+    output::DepthSurface,
     texture::{ChannelClass, ChannelValue, Image, SignedTexelMinimum},
 };
 use serde_json::{Map, Value, json};
 
-use super::{CaseError, Loaded, ProbeResult, Setup, state};
+use super::{
+    CaseError, Loaded, ProbeResult, Setup,
+    state::{self, Probe},
+};
 use crate::error::InputError;
 use crate::{
     picture::{ChannelUnit, Picture, Rgba, Samples, buffer, exr, png},
@@ -29,6 +33,37 @@ pub struct CaseOutcome {
 }
 
 impl CaseOutcome {
+    /// The result of a draw, from its events, its targets and its depth buffer. Fails if a picture cannot be encoded.
+    pub fn new(
+        setup: &Setup,
+        events: &DrawEvents,
+        surfaces: &[&Image],
+        depth: Option<&DepthSurface>,
+    ) -> Result<Self, CaseError> {
+        let [width, height] = setup.size;
+        let minimum = setup.profile.rules.signed_texel_minimum;
+        let mut pictures = Vec::new();
+        for (index, surface) in surfaces.iter().enumerate() {
+            pictures.push(picture_of(&format!("target{index}"), surface, minimum)?);
+        }
+        if let Some(surface) = depth {
+            let single = |&stored: &u32| f32::from_bits(surface.format().to_format(stored, Format::FP32));
+            let values: Vec<f32> = surface.data().iter().map(single).collect();
+            let picture = Picture::new(width, height).with("depth", ChannelUnit::Unknown, Samples::Float(values))?;
+            pictures.push(("depth.exr".to_owned(), exr(&picture)?));
+        }
+        let answer = |question: &Probe| state::answer(question, surfaces[question.target], depth, minimum);
+        let (cost, shaded) = (shader::slots(&setup.pixel), events.fragments.shaded);
+        let (texture, arithmetic) = (u64::from(cost.texture), u64::from(cost.arithmetic));
+        let mut counts = event_counts(events).to_vec();
+        counts.push(("texture slots a fragment", texture));
+        counts.push(("arithmetic slots a fragment", arithmetic));
+        counts.push(("shader slots", (texture + arithmetic).saturating_mul(shaded)));
+        let cycles = pipe_cycles(texture, arithmetic, shaded, &setup.profile.rates);
+        counts.extend(cycles.map(|cycles| ("pixel pipe cycles, at least", cycles)));
+        Ok(Self { pictures, probes: setup.probes.iter().map(answer).collect(), counts })
+    }
+
     /// Returns `true` if every probe passed.
     pub fn passed(&self) -> bool {
         self.probes.iter().all(|result| result.passed)
@@ -80,29 +115,7 @@ pub(super) fn switches_json(profile: &Profile) -> Map<String, Value> {
 pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<CaseOutcome, CaseError> {
     let mut loaded = Loaded::new(setup, executor)?;
     let events = loaded.draw()?;
-    let (surfaces, depth) = (loaded.targets()?, loaded.depth()?);
-    let [width, height] = setup.size;
-    let minimum = setup.profile.rules.signed_texel_minimum;
-    let mut pictures = Vec::new();
-    for (index, surface) in surfaces.iter().enumerate() {
-        pictures.push(picture_of(&format!("target{index}"), surface, minimum)?);
-    }
-    if let Some(surface) = depth {
-        let single = |&stored: &u32| f32::from_bits(surface.format().to_format(stored, Format::FP32));
-        let values: Vec<f32> = surface.data().iter().map(single).collect();
-        let picture = Picture::new(width, height).with("depth", ChannelUnit::Unknown, Samples::Float(values))?;
-        pictures.push(("depth.exr".to_owned(), exr(&picture)?));
-    }
-    let answer = |question| state::answer(question, surfaces[question.target], depth, minimum);
-    let (cost, shaded) = (shader::slots(&setup.pixel), events.fragments.shaded);
-    let (texture, arithmetic) = (u64::from(cost.texture), u64::from(cost.arithmetic));
-    let mut counts = event_counts(&events).to_vec();
-    counts.push(("texture slots a fragment", texture));
-    counts.push(("arithmetic slots a fragment", arithmetic));
-    counts.push(("shader slots", (texture + arithmetic).saturating_mul(shaded)));
-    let cycles = pipe_cycles(texture, arithmetic, shaded, &setup.profile.rates);
-    counts.extend(cycles.map(|cycles| ("pixel pipe cycles, at least", cycles)));
-    Ok(CaseOutcome { pictures, probes: setup.probes.iter().map(answer).collect(), counts })
+    CaseOutcome::new(setup, &events, &loaded.targets()?, loaded.depth()?)
 }
 
 /// Minimum number of clocks at the profile's issue rates, if texture and arithmetic slots issue in parallel, every

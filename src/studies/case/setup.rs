@@ -16,6 +16,7 @@ use toml::Spanned;
 use super::{
     CaseError, CaseWarning, Overrides,
     binder::Binder,
+    constants,
     error::CaseText,
     schema::{self, Case},
     stages,
@@ -126,6 +127,11 @@ impl Setup {
         let place = CaseText::new(name, text);
         let case: Case = toml::from_str(text).map_err(|error| place.toml(&error))?;
         Binder { place, name, folder, overrides }.bind(case)
+    }
+
+    /// Number of constants `c0`, `c1` and so on of the pixel program.
+    pub fn float_constants(&self) -> usize {
+        constants::counts(self.pixel.version, &self.profile)[0] as usize
     }
 
     /// Name of a component of a pixel register in program syntax.

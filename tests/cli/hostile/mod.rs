@@ -113,14 +113,18 @@ fn hostile_values() {
 #[test]
 fn what_is_wrong_is_said() {
     let folder = copy_of_the_repository();
-    let left = || fs::read_dir(folder.path()).expect("a folder").count();
-    let (before, mut cases) = (left(), Vec::<(&str, Vec<&str>)>::new());
+    let mut cases = Vec::<(&str, Vec<&str>)>::new();
     for line in include_str!("../refused.txt").lines().filter(|line| !line.starts_with('#')) {
-        match line.strip_prefix("    ") {
-            Some(words) => cases.last_mut().expect("a command line").1.push(words),
-            None => cases.push((line, Vec::new())),
+        if let Some((name, text)) = line.strip_prefix("file ").and_then(|file| file.split_once(" < ")) {
+            fs::write(folder.path().join(name), text.replace(';', "\n")).expect("a file");
+        } else if let Some(words) = line.strip_prefix("    ") {
+            cases.last_mut().expect("a command line").1.push(words);
+        } else {
+            cases.push((line, Vec::new()));
         }
     }
+    let left = || fs::read_dir(folder.path()).expect("a folder").count();
+    let before = left();
     cases.par_iter().for_each(|(line, expected)| {
         let (arguments, input) = line.split_once(" < ").unwrap_or((line, ""));
         let ran = crossbar_in(folder.path(), &arguments.split(' ').collect::<Vec<_>>(), &input.replace(';', "\n"));
