@@ -30,7 +30,6 @@ struct DeviceFile {
     programs: BTreeMap<String, BTreeMap<String, Format>>,
 }
 
-/// Formats of storages, by the storages' names.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StorageTable {

@@ -37,7 +37,6 @@ pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErro
     }
 }
 
-/// Meaning of a name.
 #[derive(Clone, Debug)]
 pub(super) enum Name {
     Register(Register),
@@ -300,7 +299,6 @@ impl<'a> Parser<'a> {
         self.read(name, token)
     }
 
-    /// The register for a name in a source operand.
     fn read(&mut self, name: Option<Name>, token: Token<'a>) -> Parsed<Register> {
         let span = Span::new(token.span.start, self.cursor.last_end());
         match name {

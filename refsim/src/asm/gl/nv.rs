@@ -30,7 +30,6 @@ pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErro
     }
 }
 
-/// Meaning of a name.
 #[derive(Clone, Copy)]
 enum Name {
     Constant([u32; 4]),

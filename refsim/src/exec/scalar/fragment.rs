@@ -94,7 +94,6 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         out
     }
 
-    /// Computes the result in the format of the destination.
     fn fragment_result(&mut self, lane: usize, instruction: &Instruction) -> Components {
         let Some(destination) = &instruction.destination else { return [0; 4] };
         let to = self.fragment_formats().of_file(destination.register.file);

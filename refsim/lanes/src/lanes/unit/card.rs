@@ -31,7 +31,6 @@ pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// True if comparisons return NaN for unordered words.
     const SETS_NAN: bool;
 
-    /// The unit of a format.
     fn new(format: &Format) -> Self;
 
     fn mul(&self, a: u32, b: u32) -> u32;

@@ -25,7 +25,6 @@ pub(crate) enum FetchDetail {
     Gradients([Slot; 4], [Slot; 4]),
 }
 
-/// A step of execution.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum BatchStep {
     /// Lane operations of one format.
@@ -66,7 +65,6 @@ pub(crate) enum BatchStep {
     },
 }
 
-/// A scheduled block.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepBlock {
     /// Slots of uniform values, filled before the first run and never overwritten.
@@ -350,11 +348,9 @@ impl Scheduler<'_> {
     }
 }
 
-/// Slots of a program's results.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ResultSlots {
     pub(crate) colors: [Option<[Slot; 4]>; 4],
-    /// Mask of killed lanes.
     pub(crate) killed: Option<Slot>,
     /// Depth written by the program: format, slot, and the mask of lanes that write depth, unless all do.
     pub(crate) depth: Option<(Arith, Slot, Option<Slot>)>,

@@ -15,7 +15,6 @@ use crate::exec::lower::{
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants};
 use crate::isa::{Opcode, Program, RegisterFile};
 
-/// A decoded instruction.
 #[derive(Debug)]
 pub(crate) struct PlannedInstruction {
     pub(crate) opcode: Opcode,
@@ -23,7 +22,6 @@ pub(crate) struct PlannedInstruction {
     pub(crate) block: StepBlock,
     /// Destination slots of the block's roots; a condition has one root and no destination.
     pub(crate) to: Vec<Slot>,
-    /// Sampler read by a texture instruction.
     pub(crate) sampler: Option<usize>,
     /// Number of instruction slots.
     pub(crate) cost: u64,

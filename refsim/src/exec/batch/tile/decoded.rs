@@ -46,7 +46,6 @@ pub(crate) struct PixelKey {
     projections: [Projection; BUMP_STAGES],
 }
 
-/// Cache of pixel programs.
 pub(crate) type PixelPrograms = Cache<PixelKey, DecodedPixel>;
 
 /// Returns a decoded pixel program, from the cache if possible.

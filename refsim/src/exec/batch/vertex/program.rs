@@ -68,7 +68,6 @@ pub(crate) struct VertexKey {
     budget: u32,
 }
 
-/// Cache of vertex programs.
 pub(crate) type VertexPrograms = Cache<VertexKey, DecodedVertex>;
 
 /// Returns a decoded program, from the cache if possible. The first constants of a program are folded into it. For
