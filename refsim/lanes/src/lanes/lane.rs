@@ -37,12 +37,10 @@ impl RegisterNumber for i32 {
     }
 }
 
-/// The arithmetic of one number format on single lanes.
+/// The arithmetic of one number format on single lanes: exact results, rounded once, as `refsim::num` defines them.
 ///
-/// Every method returns the exact real result rounded once into the format, as `refsim::num` defines it. No code is
-/// shared with `num`, so that agreement between the two is evidence. Methods that matter for speed have no
-/// data-dependent branches, so that the compiler vectorizes plain loops over fixed arrays, for the instruction set that
-/// the loop is dispatched to.
+/// No code is shared with `num`, so that agreement between the two is evidence. Methods that matter for speed have no
+/// data-dependent branches, so that the compiler vectorizes plain loops over fixed arrays.
 ///
 /// Registers hold `T`: the number itself, as a host integer or a host float that represents every value of the format.
 /// Bit patterns are made only when a value leaves the executor ([`Lane::encode`]); all NaN are one value here.
@@ -162,8 +160,11 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn saturate(&self, a: Self::T) -> Self::T;
     /// `a > 1/2` with an exact 1/2; false for NaN.
     fn above_half(&self, a: Self::T) -> bool;
-    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
-    fn factor(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite; `a` if the format has no infinity.
+    #[inline(always)]
+    fn factor(&self, a: Self::T, _: Self::T) -> Self::T {
+        a
+    }
 }
 
 /// Returns `true` if the float in a slot is neither infinite nor NaN.

@@ -118,7 +118,7 @@ impl<'a> Parser<'a> {
     /// `GT.x`
     fn condition(&mut self) -> Parsed<Condition> {
         let token = self.cursor.next();
-        let Some(test) = ConditionTest::from_name(token.text) else {
+        let Ok(test) = token.text.parse() else {
             let names = ConditionTest::ALL.map(ConditionTest::name).join(", ");
             return Err(token.error(
                 ErrorKind::Predicate,

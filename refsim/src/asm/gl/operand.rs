@@ -146,7 +146,7 @@ pub(super) fn constant(cursor: &mut Cursor<'_>) -> Parsed<[u32; 4]> {
 
 pub(super) fn target(cursor: &mut Cursor<'_>) -> Parsed<TextureTarget> {
     let token = cursor.next();
-    TextureTarget::from_name(token.text).ok_or_else(|| {
+    token.text.parse().map_err(|_| {
         let names = TextureTarget::ALL.map(TextureTarget::name).join(", ");
         token.error(
             ErrorKind::UnknownUsage,

@@ -91,11 +91,12 @@ fn decoded(
     let matches = |key: &VertexKey| if open { key.constants.is_none() && same(key) } else { folded(key) };
     programs.get(matches, || {
         let code = if has_flow(program) {
-            VertexCode::Flow(Box::new(FlowPlan::vertex(
+            VertexCode::Flow(Box::new(FlowPlan::new(
                 program,
                 rules,
                 Formats::vertex(program, rules),
                 constants,
+                None,
                 budget,
             )))
         } else {
