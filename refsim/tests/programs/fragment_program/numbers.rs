@@ -16,6 +16,25 @@ fn angles_are_radians_and_results_the_nearest() {
 }
 
 #[test]
+fn sines_and_cosines_obey_their_identities_in_any_format() {
+    for text in ["e8m23", "e7m16", "e5m10", "s3.12", "e8m23:rtz"] {
+        let format: Format = text.parse().unwrap();
+        for k in -40..40_i32 {
+            let angle = refsim::num::from_ratio(format, k < 0, k.unsigned_abs().into(), 7).bits;
+            let minus = ops::neg(format, angle).bits;
+            let cos = ops::cos(format, angle).bits;
+            assert_eq!(cos, ops::cos(format, minus).bits, "{text} {k}: even");
+            let sin = ops::sin(format, angle).bits;
+            assert_eq!(ops::neg(format, sin).bits, ops::sin(format, minus).bits, "{text} {k}: odd");
+            let number = |bits| f64::from(f32::from_bits(ops::convert(&format, Format::FP32, bits).bits));
+            let circle = number(cos) * number(cos) + number(sin) * number(sin);
+            let step = if format.width() > 16 { 1e-4 } else { 2e-3 };
+            assert!((circle - 1.0).abs() < step, "{text} {k}: {circle}");
+        }
+    }
+}
+
+#[test]
 fn reflection_and_the_two_dimensional_matrix() {
     // Reflection about (0, 2, 0): (1, 1, 0) becomes (-1, 1, 0).
     let ran = run("MOVR R1, {0, 2, 0, 7}; RFLR R0.xyz, R1, p[0];", &[[1.0, 1.0, 0.0, 5.0]]);
