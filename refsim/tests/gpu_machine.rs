@@ -65,14 +65,12 @@ fn products_and_sums_agree(gpu: &Arc<Gpu>) {
     }
 }
 
-/// What both machines answer.
 fn both<T: PartialEq + Debug>(machines: &mut [Machine; 2], ask: impl Fn(&mut Machine) -> T) -> T {
     let [expected, found] = machines.each_mut().map(ask);
     assert_eq!(found, expected);
     expected
 }
 
-/// A scalar reference machine and a GPU machine.
 fn pair(profile: &Profile, gpu: &Arc<Gpu>) -> [Machine; 2] {
     let device = Machine::with_gpu(profile.clone(), Arc::clone(gpu)).unwrap();
     [Machine::new(profile.clone(), ExecutorKind::Scalar), device]

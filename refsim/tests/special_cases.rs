@@ -27,7 +27,6 @@ fn main() -> ExitCode {
 
 type V = [u32; 4];
 
-/// A line of the table.
 struct Row {
     line: usize,
     language: &'static str,

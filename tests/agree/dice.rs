@@ -144,7 +144,6 @@ pub(crate) fn constants(r: &mut Random) -> Constants {
     }
 }
 
-/// The texture kind of each sampler in use.
 fn kinds(options: &Options, r: &mut Random) -> Vec<(usize, TextureKind)> {
     use TextureKind::{Cube, D1, D2, Rectangle, Volume};
     let mut all = if options.is_ps_1() {

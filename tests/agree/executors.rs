@@ -8,7 +8,6 @@ use refsim::exec::gpu::testing;
 use refsim::machine::{ExecutorKind, Machine, MachineError};
 use std::sync::LazyLock;
 
-/// An executor with its settings.
 #[derive(Clone, Debug)]
 pub(crate) struct Executor {
     /// Its name in messages and counts.

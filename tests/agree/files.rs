@@ -40,7 +40,6 @@ pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
     all
 });
 
-/// The legal shaders among the fixtures.
 pub(crate) static SHADERS: LazyLock<Programs> =
     LazyLock::new(|| Programs::read(walk(&root().join("fixtures/shaders"), &["psa", "vsa"])));
 
@@ -109,7 +108,6 @@ impl Programs {
     }
 }
 
-/// The kinds of texture that a program's samplers need.
 fn kinds(program: &CheckedProgram, r: &mut Random) -> Vec<(usize, TextureKind)> {
     let facts = program.facts();
     let bound = (0..16).filter(|n| facts.samplers >> n & 1 == 1);

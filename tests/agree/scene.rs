@@ -26,7 +26,6 @@ pub(crate) struct Scene {
     pub(crate) bump: [BumpStage; 8],
     pub(crate) projections: [Projection; 8],
     pub(crate) flat: Option<Provoking>,
-    /// Vertices for draws without a vertex program.
     pub(crate) vertices: Vec<Vertex>,
     /// Vertex streams for a vertex program: register, step rate, values.
     pub(crate) streams: Vec<(usize, StepRate, Vec<[u32; 4]>)>,
@@ -62,7 +61,6 @@ pub(crate) struct Case {
     pub(crate) vertex: Option<Vec<String>>,
 }
 
-/// The checked programs of a case.
 #[derive(Clone, Debug)]
 pub(crate) struct Programs {
     pub(crate) pixel: CheckedProgram,
@@ -104,7 +102,6 @@ struct Stage {
 }
 
 impl Scene {
-    /// Draws the scene.
     pub(crate) fn draw(&self, executor: &Executor, programs: &Programs) -> Result<Outcome, MachineError> {
         let mut stage = self.stage(executor)?;
         let mut events = Vec::new();

@@ -223,7 +223,6 @@ pub(crate) fn shows_all(profile: &Profile, targets: usize) -> Vec<String> {
     lines
 }
 
-/// A version as used in the names of suites.
 pub(crate) fn version_name(version: Version) -> &'static str {
     match version {
         Version::Fp1_0 => "fp_1_0",
@@ -239,7 +238,6 @@ fn snake_case(variant: impl std::fmt::Debug) -> String {
     text.chars().enumerate().flat_map(inner).collect::<String>().to_lowercase()
 }
 
-/// Every suite.
 pub(crate) fn all() -> Vec<Suite> {
     let mut out = Vec::new();
     for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {

@@ -33,14 +33,18 @@ fn constants_of_opengl_programs_have_the_programs_names() {
     let fixtures = format!("{}/fixtures/cases", env!("CARGO_MANIFEST_DIR"));
     fs::copy(format!("{fixtures}/stripes.fp"), folder.path().join("stripes.fp")).expect("a copy");
     let [nv, arb] = ["opengl_nv", "opengl_arb"].map(|name| fs::read_to_string(example(name)).expect("a case"));
-    let said = [(&nv, "tint", "hue"), (&nv, "p[0]", "p[256]"), (&arb, "\"program.env[1]\"", "\"p[0]\"")].map(
-        |(text, from, to)| {
-            fs::write(folder.path().join("case.toml"), text.replace(from, to)).expect("a file");
-            let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
-            assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{to}");
-            ran.stderr
-        },
-    );
+    let said = [
+        (&nv, "tint", "hue"),
+        (&nv, "p[0]", "p[256]"),
+        (&arb, "\"program.env[1]\"", "\"p[0]\""),
+        (&arb, "\"program.env[1]\"", "c0"),
+    ]
+    .map(|(text, from, to)| {
+        fs::write(folder.path().join("case.toml"), text.replace(from, to)).expect("a file");
+        let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{to}");
+        ran.stderr
+    });
     insta::assert_snapshot!(said.join("----\n"));
     fs::write(folder.path().join("case.toml"), nv.replace("tint", "c0 = [1, 0, 0, 0]\ntint")).expect("a file");
     let twice = crossbar_in(folder.path(), &["run", "case.toml"], "").refusal("one constant by two names");

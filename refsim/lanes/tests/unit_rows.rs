@@ -102,14 +102,12 @@ fn has(f: Format, code: LaneCode) -> bool {
     !matches!(code, LaneCode::Plain(operation) if operation.evaluate(f, [0; 3]).is_none())
 }
 
-/// The codes of all operations.
 fn codes() -> Vec<LaneCode> {
     let plain = operations().map(LaneCode::Plain);
     let scales = [-3, 1, 2].map(|shift| LaneCode::Immediate(Op::Scale, shift));
     plain.chain(scales).chain([LaneCode::Dot(2), LaneCode::Dot(3), LaneCode::Dot(4)]).collect()
 }
 
-/// Compares all operations on rows of operands.
 fn compare(text: &str, rows: &[LaneRow; OPERANDS], codes: &[LaneCode], note: &str) {
     let f: Format = text.parse().expect("a format");
     let lane = AnyLane::new(f);

@@ -69,7 +69,6 @@ impl<'a> Cursor<'a> {
         Some(found)
     }
 
-    /// End of the token before the current one.
     pub(super) fn last_end(&self) -> u32 {
         self.tokens[self.at.saturating_sub(1)].span.end
     }

@@ -200,7 +200,6 @@ impl fmt::Debug for AssembleErrors {
     }
 }
 
-/// Result of parsing a part of a statement.
 pub(super) type Parsed<T> = Result<T, SyntaxError>;
 
 /// Quotes text for error messages: in backticks, truncated to 40 characters.

@@ -30,7 +30,9 @@ mod word;
 pub use error::{AssembleErrors, ErrorKind, SyntaxError};
 pub use limits::{MAX_ERRORS, MAX_NUMBER, MAX_OPERANDS, MAX_REGISTER, MAX_STATEMENTS, MAX_TEXT};
 
-use crate::isa::{Program, ProgramText, Register, Span};
+use std::collections::BTreeMap;
+
+use crate::isa::{Program, ProgramText, Register, Span, Version};
 
 /// Parses a program.
 ///
@@ -67,6 +69,15 @@ pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
 /// versions, in the extensions' case for OpenGL's.
 pub fn print(program: &Program) -> String {
     if program.version.is_fragment_program() { gl::print(program) } else { print::print(program) }
+}
+
+/// The names that an `!!ARBfp1.0` program declares for `program.local[#]` and `program.env[#]`, with their constants:
+/// `tint` for `PARAM tint = program.local[0]`, `t[1]` for an element of the array `t`. Empty for other versions.
+pub fn parameter_names(program: &Program) -> BTreeMap<String, Register> {
+    match program.version {
+        Version::ArbFp1_0 => gl::parameter_names(program.text.as_str()),
+        _ => BTreeMap::new(),
+    }
 }
 
 /// Name of a register in program text: `r0`, `R0`, `f[TEX0]`, `result.color`. Temporaries of `!!ARBfp1.0` are named

@@ -93,7 +93,6 @@ impl<'a> Context<'a> {
         self.sound.get(index).copied().unwrap_or(false)
     }
 
-    /// Sound instructions with their indices.
     pub(super) fn instructions(&self) -> impl Iterator<Item = (usize, &'a Instruction)> + use<'a> {
         let sound = self.sound.clone();
         self.program.instructions.iter().enumerate().filter(move |(i, _)| sound[*i])

@@ -13,7 +13,6 @@ use crate::isa::{
     DestinationRule, Instruction, Mask, Modifier, Opcode, RegisterFile, Relative, Source, Span, Stage, Swizzle, Version,
 };
 
-/// The written components of each register.
 #[derive(Default)]
 struct Written(BTreeMap<(RegisterFile, u16), u8>);
 

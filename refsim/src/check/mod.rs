@@ -1,13 +1,11 @@
 //! The checker: validates a program for a device, and returns a [`Checked`] program or a list of all violations.
 //!
-//! [`check`] reports *every* violation of the rules [`RuleId`] in one pass, each with its location, the value found,
-//! the value allowed, and the profile key of the limit. Executors accept only [`Checked`] programs and rely on their
-//! properties: register numbers are in range, operands are present, blocks are closed, labels exist, subroutines do not
-//! recurse, and every register read is written on some path.
+//! Executors accept only [`Checked`] programs and rely on their properties: register numbers are in range, operands are
+//! present, blocks are closed, labels exist, subroutines do not recurse, and every register read is written on some
+//! path.
 //!
 //! Where the sources leave a rule open, the checker is strict if a card could not run the program, and lenient
-//! otherwise. Reads of unwritten components are found exactly in straight-line code; across branches, loops and calls a
-//! component counts as written if some path may have written it.
+//! otherwise. A component counts as written if some path through branches, loops and calls may have written it.
 
 mod allowed;
 mod context;

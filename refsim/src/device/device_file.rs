@@ -30,7 +30,6 @@ struct DeviceFile {
     programs: BTreeMap<String, BTreeMap<String, Format>>,
 }
 
-/// Formats of storages, by the storages' names.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StorageTable {
@@ -179,9 +178,7 @@ impl Profile {
         Ok(())
     }
 
-    /// Sets or removes the accumulator of dot products in pixel programs: products of operands are rounded once into
-    /// this format and summed in it, and the sum is converted to the format of the operation. An instruction whose own
-    /// format does not fit the accumulator sums in its own format.
+    /// Sets or removes the accumulator of dot products in pixel programs (docs/devices.md, "Device files").
     ///
     /// # Errors
     /// [`DeviceError::StorageFormat`] if registers cannot have the format, or executors cannot round products of the

@@ -1,11 +1,8 @@
-//! Device profiles: descriptions of the cards as data.
+//! Device profiles: descriptions of the cards as data (docs/devices.md).
 //!
 //! A profile is a TOML file in `profiles/`, embedded in the library. It holds a card's arithmetic ([`Rules`], for the
 //! executors), limits ([`Limits`], for [`crate::check`]) and speeds ([`Rates`], [`Bus`], for the timing model). Every
-//! figure has a source and a [`Confidence`]. A property that is open, or that a driver chooses, is a *switch*: a figure
-//! with several allowed values, so that a study can compare all of them. A switch that was measured, on the card or a
-//! sibling, keeps its refuted values and can state how many measurements each value predicts ([`MeasuredCounts`]). See
-//! docs/devices.md.
+//! figure has a source and a [`Confidence`]. A *switch* is a figure with several allowed values.
 //!
 //! The device `ideal-<format>`, for any number format, has the rules of r300, and neither limits nor timing.
 

@@ -58,7 +58,6 @@ impl RawProfile {
         Ok(own)
     }
 
-    /// All figures of the file.
     pub(super) fn rows(&self) -> Result<Vec<FigureRow>, String> {
         let mut rows: Vec<FigureRow> =
             self.versions.iter().map(|figure| figure.row("versions".to_owned())).collect::<Result<_, _>>()?;

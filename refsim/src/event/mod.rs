@@ -1,12 +1,10 @@
 //! Counters and logs of draws: the only input of the timing model.
 //!
-//! Counts are integer sums, so they are the same for every thread count and executor. They measure the work of a card;
-//! [`crate::timing`] derives durations from them.
+//! Counts are integer sums, so they are the same for every thread count and executor.
 //!
 //! A machine with recording enabled (see [`crate::machine`]) logs every upload, draw, read-back and fence as an
-//! [`Event`], in the order of the calls. A draw's [`DrawRecord`] holds its instruction mix ([`ProgramWork`]), the
-//! resources it read and wrote, and, if textures were observed, the cache traffic of its texel reads
-//! ([`SamplerTraffic`]).
+//! [`Event`], in the order of the calls. A draw's [`DrawRecord`] holds its instruction mix ([`ProgramWork`]), its
+//! resources and, if textures were observed, the cache traffic of its texel reads ([`SamplerTraffic`]).
 
 mod counts;
 mod host;

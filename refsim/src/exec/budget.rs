@@ -1,11 +1,9 @@
-//! The step budget: the maximum number of instructions executed per pixel or vertex.
+//! The step budget: the maximum number of instructions executed per pixel or vertex, as in GL_NV_vertex_program2 and
+//! GL_NV_fragment_program2.
 //!
 //! A step is one instruction executed by a lane, flow control included. A co-issued pair is one step; `phase` counts 0.
-//! A lane that has used up its budget is stopped before its next instruction and executes nothing more. Its results are
-//! incomplete, so a stopped fragment or vertex is an error ([`Overrun`]); a stopped helper lane is not.
-//!
-//! Source: GL_NV_vertex_program2 and GL_NV_fragment_program2, which terminate a program after a number of instructions
-//! "to prevent hangs".
+//! A lane that has used up its budget is stopped before its next instruction. A stopped fragment or vertex is an error
+//! ([`Overrun`]); a stopped helper lane is not.
 
 use super::{FlowMap, ResolvedConstants};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program};

@@ -35,7 +35,6 @@ pub struct Constants {
 }
 
 impl Constants {
-    /// The value of a parameter.
     pub(crate) fn parameter(&self, parameter: &Parameter) -> [u32; 4] {
         match (parameter.source, &self.state) {
             (ParameterSource::Named(default), _) => self.named.get(&parameter.name).copied().unwrap_or(default),

@@ -68,11 +68,6 @@ impl ConditionTest {
     pub fn name(self) -> &'static str {
         self.into()
     }
-
-    /// The test with this name.
-    pub fn from_name(text: &str) -> Option<Self> {
-        text.parse().ok()
-    }
 }
 
 /// A condition: `(GT.x)` after a destination, or the operand of `KIL`.
@@ -109,11 +104,6 @@ impl TextureTarget {
     /// The name in programs.
     pub fn name(self) -> &'static str {
         self.into()
-    }
-
-    /// The target with this name.
-    pub fn from_name(text: &str) -> Option<Self> {
-        text.parse().ok()
     }
 }
 

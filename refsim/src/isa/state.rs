@@ -168,11 +168,6 @@ impl FogMode {
     pub fn name(self) -> &'static str {
         self.into()
     }
-
-    /// The fog mode with this option name.
-    pub fn from_name(text: &str) -> Option<Self> {
-        text.parse().ok()
-    }
 }
 
 /// `OPTION ARB_fog_exp`: fog applied to the program's color output. [`crate::check::check`] appends the instructions

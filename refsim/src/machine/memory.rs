@@ -21,7 +21,6 @@ impl Memory {
         self.textures.get(id.0).and_then(Option::as_ref).ok_or(missing)
     }
 
-    /// The current contents of a texture.
     pub(super) fn current(&self, id: TextureId) -> Result<&Image, MachineError> {
         let image = self.texture(id)?;
         #[cfg(feature = "wgpu")]
@@ -56,7 +55,6 @@ impl Memory {
         self.depths.get(id.0).and_then(Option::as_ref).ok_or(missing)
     }
 
-    /// The current contents of a depth buffer.
     pub(super) fn current_depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
         let surface = self.depth(id)?;
         #[cfg(feature = "wgpu")]

@@ -1,13 +1,12 @@
 //! The emulated card: memory, state, draws and read-back.
 //!
 //! A [`Machine`] consists of a device profile, an executor and memory. Textures and depth buffers are owned by the
-//! machine and referred to by handles; a colour target is a texture. [`Machine::draw`] validates a [`DrawCall`], runs
-//! the vertex stage, assembles, clips and sets up triangles in order, and shades the target in tiles of 16x16 pixels,
-//! in parallel on the worker threads. Within a tile, triangles are drawn in order of submission. Bits and counts do not
-//! depend on the number of threads, and one call with N instances equals N calls.
+//! machine and referred to by handles; a colour target is a texture. [`Machine::draw`] validates a [`DrawCall`], sets
+//! up triangles in order, and shades the target in tiles of 16x16 pixels, in parallel. Bits and counts do not depend on
+//! the number of threads, and one call with N instances equals N calls.
 //!
-//! Invalid calls return a [`MachineError`] before anything is written. Behaviour that cards leave undefined is defined
-//! here: an unbound sampler reads (0, 0, 0, 1), and reading a texture that the same call draws into is an error.
+//! Invalid calls return a [`MachineError`] before anything is written. Reading a texture that the same call draws into
+//! is an error.
 
 #[cfg(feature = "wgpu")]
 mod device;

@@ -208,7 +208,6 @@ fn vertices_run(call: &DrawCall<'_>, counts: &DrawEvents, entries: Option<u64>) 
 /// An outline: edges and bounding box.
 type Outline = ([(i64, i64, i64, i64); 3], (u32, u32, u32, u32));
 
-/// Number of quads that a triangle covers.
 fn covered(setup: &TriangleSetup, outlines: &mut BTreeMap<Outline, u64>) -> u64 {
     let edge = |e: &Edge| (e.a, e.b, e.c, e.bias);
     let Region { x, y, width, height } = setup.bounds;
@@ -223,7 +222,6 @@ fn covered(setup: &TriangleSetup, outlines: &mut BTreeMap<Outline, u64>) -> u64 
     quads
 }
 
-/// Instruction mix of a checked program with its constants.
 fn work(checked: &CheckedProgram, constants: &Constants) -> ProgramWork {
     ProgramWork::new(program(checked), FlowConstants { int: &constants.int, boolean: &constants.boolean })
 }

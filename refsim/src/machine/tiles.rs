@@ -13,7 +13,6 @@ pub(super) enum Tiles<'a> {
     Batch(Box<BatchTiles<'a>>),
 }
 
-/// Creates the tile executor of a draw.
 pub(super) fn executor<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>) -> Tiles<'a> {
     match kind {
         ExecutorKind::Scalar => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),

@@ -166,7 +166,6 @@ fn set_up(
     placed
 }
 
-/// A pixel being traced.
 pub(super) struct TracedPixel {
     pub(super) tile: TargetTile,
     fragments: Vec<FragmentTrace>,

@@ -43,7 +43,6 @@ pub struct TraceBuffers {
     pub parts: Parts,
 }
 
-/// Video memory as words.
 #[derive(Default)]
 struct WordMemory {
     words: Vec<u32>,

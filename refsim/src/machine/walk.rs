@@ -95,7 +95,6 @@ pub(super) fn draw(
     Ok(DrawResult { tiles: work.into_iter().filter_map(|w| w.tile).collect(), events })
 }
 
-/// Tile shapes that an executor supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TileShapes {
     /// [`TILE`] columns and rows.

@@ -15,7 +15,6 @@ pub struct Plane {
     pub d2: u32,
 }
 
-/// The plane through three values of a format.
 pub(super) fn plane(values: [u32; 3], format: Format) -> Plane {
     let [a0, a1, a2] = values;
     Plane { base: a0, d1: num::ops::sub(format, a1, a0).bits, d2: num::ops::sub(format, a2, a0).bits }

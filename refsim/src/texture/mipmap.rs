@@ -32,13 +32,7 @@ pub(crate) fn texels_under(extent: u32, next: u32, i: u32) -> Range<u32> {
 }
 
 impl Image {
-    /// Fills levels 1 and up, each from the previous level.
-    ///
-    /// A texel is the mean of two texels along each axis, 2i and 2i + 1. Along an axis of one texel, and across the
-    /// faces of a cube, it is the texel i. The last row or column of an odd extent is dropped. Fixed-point values are
-    /// summed exactly and rounded once, by value: the mean of -1 and 1 is 0, and halves round away from zero. Floats
-    /// are combined in FP32, `a + (b - a) / 2` in rounded steps along x, then y, then z, and converted to the format,
-    /// as in a linear read midway between the texels.
+    /// Fills levels 1 and up, each from the previous level (docs/numbers.md, "Generated mip levels").
     pub fn generate_mipmaps(&mut self, rules: MipmapRules) {
         let size = self.format().bytes();
         for fine in 0..self.levels().len() - 1 {

@@ -77,13 +77,8 @@ pub fn unbound(format: Format) -> [u32; 4] {
     [0, 0, 0, one]
 }
 
-/// Samples an image; `None` is an unbound sampler. Coordinates are FP32 bits, the result is in `rules.format`.
-///
-/// Fixed-point texels are summed exactly with weights of `filter_fraction_bits` and rounded once; under
-/// [`FilterArithmetic::ByteLerps`] bytes are combined along x, then y, then z, then between levels, each result rounded
-/// to a byte with halves up. Float texels are combined in FP32 in the same order, `a + w * (b - a)` in two rounded
-/// steps; a weight of 0 gives `a` itself. NaN and infinite coordinates count as 0. On a cube face, coordinates are
-/// always clamped; on a rectangle, wrap and mirror act as clamp.
+/// Samples an image; `None` is an unbound sampler. Coordinates are FP32 bits, the result is in `rules.format`. The
+/// steps are defined in docs/numbers.md, "Texels".
 pub fn sample(
     image: Option<&Image>,
     state: &SamplerState,

@@ -104,7 +104,6 @@ impl HostWeights {
         Some(&mut self.0[operation.index()])
     }
 
-    /// Weighted sum of all operations.
     fn total(&self, counts: &HostCounts) -> u128 {
         let weighted = |kind: &HostOperation| u128::from(counts.of(*kind)) * u128::from(self.of(*kind));
         HostOperation::ALL.iter().map(weighted).fold(0, u128::saturating_add)

@@ -25,7 +25,6 @@ pub(crate) fn vectors(count: usize) -> impl Strategy<Value = Vec<[u32; 4]>> {
     vec(prop::array::uniform4(number()), count)
 }
 
-/// Inputs of a quad.
 pub(crate) fn inputs(data: &[[u32; 4]]) -> [FragmentInput; 4] {
     std::array::from_fn(|lane| {
         let mut input = FragmentInput::default();

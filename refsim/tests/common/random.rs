@@ -55,7 +55,6 @@ impl Random {
         self.next() >> 63 == 1
     }
 
-    /// An element of a list.
     pub(crate) fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len())]
     }

@@ -17,7 +17,6 @@ pub(crate) fn checked(text: &str, profile: &Profile) -> CheckedProgram {
     ready(program, profile).unwrap_or_else(|e| panic!("{text}\n{e}"))
 }
 
-/// Checks a program.
 pub(crate) fn ready(program: Program, profile: &Profile) -> Result<CheckedProgram, String> {
     refsim::check::check(program, profile).map_err(|e| format!("{e:?}"))
 }

@@ -100,7 +100,6 @@ fn programs_of_any_length_agree() {
     assert_eq!(bytes[0], bytes[1]);
 }
 
-/// Random small quads with random colors and depths.
 fn random_quads(count: usize) -> Vec<Vertex> {
     let mut random = Random::new(7);
     let mut next = || random.unit();

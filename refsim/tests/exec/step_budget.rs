@@ -2,7 +2,7 @@
 //! budget are unaffected.
 
 use crate::machine::screen;
-use crate::running::{bits, checked, constants, ideal, input, run_quad};
+use crate::running::{bits, checked, constants, ideal};
 use refsim::device::{DEFAULT_STEP_BUDGET, Profile};
 use refsim::event::{FlowConstants, ProgramWork};
 use refsim::exec::Constants;
@@ -190,16 +190,4 @@ fn counting_the_work_of_a_program_is_one_pass() {
         let (drawn, _) = draw(&nested(500), &host, 400, kind);
         assert_eq!(place(&drawn.unwrap_err()).1, 400, "{kind:?}: before the innermost loop");
     }
-}
-
-/// A fragment that exceeds the budget does not affect the other lanes of its quad; helper lanes are stopped without an
-/// error.
-#[test]
-fn lanes_have_budgets_of_their_own() {
-    let host = host();
-    let inputs = [0.0, 1.0, 2.0, 3.0].map(|x| input(&[[x, 0.0, 0.0, 1.0]]));
-    let text = "ps_2_a\ndcl t0\nmov r0, c0\nrep i0\nbreak_gt r0.x, t0.x\nadd r0, r0, c0\nendrep\nmov oC0, r0";
-    let bindings = refsim::exec::PixelBindings::new(&host);
-    let ran = run_quad(text, &ideal("fp32"), &bindings, &inputs);
-    assert_eq!(ran.results.map(|r| f32::from_bits(r.colors[0][0])), [1.0, 2.0, 3.0, 4.0]);
 }

@@ -17,7 +17,6 @@ fn format(text: &str) -> Format {
     text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 
-/// Single-precision bits converted to a format and back.
 fn rounded(format: Format, bits: u32) -> u32 {
     let narrowed = ops::convert(&Format::FP32, format, bits).bits;
     ops::convert(&format, Format::FP32, narrowed).bits

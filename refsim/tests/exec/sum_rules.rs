@@ -7,7 +7,6 @@ use refsim::exec::Constants;
 use refsim::machine::{ExecutorKind, Machine};
 use refsim::num::{DotOrder, Format, Rounding, ops};
 
-/// The scalar executor's pixels.
 fn scalar(profile: &Profile, seed: u64) -> Vec<u8> {
     drawn(Machine::new(profile.clone(), ExecutorKind::Scalar), profile, seed)
 }

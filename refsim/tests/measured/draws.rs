@@ -50,7 +50,6 @@ pub(crate) fn quads<'a>(
     call
 }
 
-/// The program that writes the first color.
 pub(crate) fn color_program(profile: &Profile) -> CheckedProgram {
     super::running::checked("ps_1_1\nmov r0, v0", profile)
 }

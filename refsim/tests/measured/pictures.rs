@@ -97,7 +97,6 @@ fn picture(measured: &Measured) -> String {
     out
 }
 
-/// A label and its strip of colors.
 fn row(out: &mut String, top: usize, label: &str, colors: &[String]) {
     let _ = writeln!(out, "<text y=\"{}\">{label}</text>", top + 13);
     strip(out, top, COLORS, &colors.iter().map(|color| Some((color.as_str(), 0, COLORS))).collect::<Vec<_>>());

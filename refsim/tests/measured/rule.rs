@@ -44,7 +44,6 @@ pub(crate) enum Hypotheses {
     Computed(&'static str, &'static [(&'static str, Redraw)]),
 }
 
-/// A rule with its counts.
 pub(crate) struct Measured {
     pub(crate) rule: Rule,
     /// Hypotheses, the cards' own first, and the results of each for all values.

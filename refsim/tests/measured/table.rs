@@ -4,19 +4,16 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// A row, by column.
 pub(crate) struct Row {
     columns: BTreeMap<String, String>,
     place: String,
 }
 
 impl Row {
-    /// A field as text.
     pub(crate) fn text(&self, column: &str) -> &str {
         self.columns.get(column).unwrap_or_else(|| panic!("{}: no column `{column}`", self.place))
     }
 
-    /// A field as a number.
     pub(crate) fn number<T: FromStr>(&self, column: &str) -> T {
         let text = self.text(column);
         text.parse().unwrap_or_else(|_| panic!("{}, {column}: `{text}`", self.place))

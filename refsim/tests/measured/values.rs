@@ -14,7 +14,6 @@ pub(crate) struct Value {
 pub(crate) struct Values(pub(crate) Vec<Value>);
 
 impl Values {
-    /// Adds a color.
     pub(crate) fn add(&mut self, measured: [u8; 3], drawn: [u8; 3], right: bool) {
         self.0.push(Value { measured, drawn, right });
     }

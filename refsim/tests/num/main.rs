@@ -6,7 +6,6 @@
 //! | `half` | every fp16 operand pair with rustc_apfloat |
 //! | `fixed` | fixed point of up to 32 bits with plain integers |
 //! | `wide` | fp24 with double precision, fp32 with the host, fused operations with rustc_apfloat |
-//! | `normalized` | sums, products, conversions of `n3.8` and the like with their definition |
 //! | `small` | every operation of every format of at most 6 bits with exact rational arithmetic |
 //! | `aligned` | sums by one adder, and truncated products, with exact fractions |
 //! | `transcendental` | `exp2` and `log2` with separate series and roots |

@@ -23,7 +23,6 @@ use Val::{Inf, Nan, Num};
 
 mod powers;
 
-/// The reference for one format.
 pub(crate) struct Reference {
     pub(crate) f: Format,
     pub(crate) tininess: Tininess,

@@ -14,7 +14,6 @@ const SIZE: [i64; 2] = [8, 4];
 /// A byte, and `true` if it is signed.
 type Byte = (i64, bool);
 
-/// A case: a format with its channels, and rules.
 struct Case<'a> {
     format: TexelFormat,
     channels: &'a [Channel],

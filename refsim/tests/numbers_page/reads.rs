@@ -8,7 +8,6 @@ use refsim::num::Format;
 use refsim::raster::FragmentInput;
 use refsim::texture::{Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Extents of the texture.
 const SIZE: [u32; 2] = [64, 32];
 /// Number of levels of the texture; each texel holds the number of its level.
 const LEVELS: u32 = 7;

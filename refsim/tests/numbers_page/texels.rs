@@ -5,7 +5,6 @@ use super::{PAGE, Random, probes};
 use refsim::num::Format;
 use refsim::texture::{ChannelValue, SignedTexelMinimum, TargetRounding, TexelFormat, decode, encode};
 
-/// Class of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Class {
     Unsigned,

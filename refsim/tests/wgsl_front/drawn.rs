@@ -15,10 +15,8 @@ use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureK
 /// Width and height of the target, in pixels, and of the texture in slot 0, in texels.
 pub(crate) const SIDE: u32 = 16;
 
-/// Uniforms by name.
 pub(crate) type Uniforms<'a> = &'a [(&'a str, [f32; 4])];
 
-/// The inputs of a shader.
 #[derive(Clone, Copy)]
 pub(crate) struct Inputs<'a> {
     pub(crate) uniforms: Uniforms<'a>,

@@ -23,7 +23,6 @@ pub(crate) fn text(more: &str, entry: &str) -> String {
     Parts::all().of(&(library() + more), entry)
 }
 
-/// An operation to test.
 #[derive(Clone, Copy, Debug)]
 struct Item {
     operation: NumberOperation,

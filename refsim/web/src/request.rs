@@ -127,7 +127,6 @@ impl Device {
     }
 }
 
-/// Checks the program of a text for a device.
 pub(crate) fn checked(text: &str, program: Program, profile: &Profile) -> Result<Checked<Program>, Vec<Remark>> {
     check(program, profile).map_err(|report| {
         let remark = |violation: &refsim::check::Violation| {

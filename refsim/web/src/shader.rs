@@ -60,7 +60,6 @@ struct ShaderAnswer {
     gpu: Option<GpuDraw>,
 }
 
-/// A uniform's name and components.
 #[derive(Debug, Serialize)]
 struct ShownUniform {
     name: String,
@@ -200,7 +199,6 @@ fn vertex_shader(inputs: &[WgslInput]) -> String {
     )
 }
 
-/// Contents of the uniform buffers.
 fn buffers(interface: &WgslInterface, values: &[ShownUniform]) -> Vec<GpuBuffer> {
     let mut contents: BTreeMap<[u32; 2], Vec<u8>> = BTreeMap::new();
     for (uniform, ShownUniform { values, .. }) in interface.uniforms.iter().zip(values) {

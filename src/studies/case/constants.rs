@@ -3,6 +3,7 @@
 use std::{collections::BTreeMap, ops::Range};
 
 use refsim::{
+    asm::parameter_names,
     check::registers,
     device::Profile,
     exec::{CheckedProgram, Constants},
@@ -44,7 +45,8 @@ impl Binder<'_> {
                 (ConstantTarget::Float(number), Constant::Vector(numbers)) => {
                     if let Some(other) = floats.insert(number, name) {
                         let message = format!("`{other}` and `{name}` are the same constant");
-                        return Err(self.place.wrong(span, message, "keep one of the two"));
+                        let help = "give the constant one value, under one of its names";
+                        return Err(self.place.wrong(span, message, help));
                     }
                     *place_at(&mut constants.float, number) = self.four(numbers, span)?;
                 }
@@ -86,6 +88,10 @@ impl Binder<'_> {
         if let Some(parameter) = declared().find(|p| p.name == *name) {
             return Ok(ConstantTarget::Named(parameter.width));
         }
+        let numbered = parameter_names(program);
+        if let Some(register) = numbered.get(name) {
+            return Ok(ConstantTarget::Float(register.index.into()));
+        }
         let opengl = program.version.is_fragment_program();
         let counts = counts(program.version, profile);
         let file = name.chars().next().and_then(|letter| "cib".find(letter));
@@ -107,12 +113,15 @@ impl Binder<'_> {
             Version::Fp1_0 => "`p[0]` to `p[255]`",
             _ => "`program.local[0]` to `program.local[255]`, `program.env[0]` to `program.env[255]`",
         };
-        let names: Vec<String> = declared().map(|p| format!("`{}`", p.name)).collect();
+        let names: Vec<&String> = declared().map(|p| &p.name).chain(numbered.keys()).collect();
         let message = format!("expected {examples} or a name that the program declares, found `{name}`");
-        let meant = did_you_mean(name, declared().map(|p| p.name.as_str()));
+        let meant = did_you_mean(name, names.iter().map(|name| name.as_str()));
         let help = match &*names {
             [] => "the program declares no names".to_owned(),
-            names => format!("{meant}the program declares {}", names.join(", ")),
+            names => {
+                let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+                format!("{meant}the program declares {}", quoted.join(", "))
+            }
         };
         Err(self.place.wrong(span, message, help))
     }

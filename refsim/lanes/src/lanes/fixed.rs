@@ -14,11 +14,8 @@ const SINGLE_PIVOT_BITS: i32 = SINGLE_PIVOT.to_bits().cast_signed();
 
 /// The arithmetic of one fixed-point format: `WIDE` is true for more than 16 bits, `WRAP` if overflow wraps.
 ///
-/// Up to 16 bits a product, and a product plus a shifted addend, fits an `i32`: both factors are at most 2^15, so
-/// `|a b| <= 2^30`, `|c 2^F| <= 2^30` with `+2^30` impossible for the latter, and half a unit is at most 2^14. Wider
-/// formats use `i64`, where the bound is 2^62.
-///
-/// So no sum or product of numbers of the format overflows its host type. The common operations still use wrapping
+/// No sum or product of numbers of the format overflows its host type: `i32` up to 16 bits, where `|a b| <= 2^30` and
+/// `|c 2^F| <= 2^30` (`+2^30` is impossible for the latter), and `i64` above. The common operations still use wrapping
 /// instructions: overflow checks would prevent vectorization.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
@@ -396,10 +393,5 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     #[inline(always)]
     fn above_half(&self, a: i32) -> bool {
         a > self.product.half as i32
-    }
-
-    #[inline(always)]
-    fn factor(&self, a: i32, _: i32) -> i32 {
-        a
     }
 }

@@ -8,7 +8,6 @@ use crate::num::NumberOperation;
 
 /// Representation of a number in registers: an integer or a float of the host.
 pub(crate) trait RegisterNumber: Copy + Default + Send + Sync + Debug + PartialOrd {
-    /// The number with these host bits.
     fn from_bits(bits: u32) -> Self;
     /// The host bits of a number.
     fn to_bits(self) -> u32;
@@ -38,22 +37,18 @@ impl RegisterNumber for i32 {
     }
 }
 
-/// The arithmetic of one number format on single lanes.
+/// The arithmetic of one number format on single lanes: exact results, rounded once, as `refsim::num` defines them.
 ///
-/// Every method returns the exact real result rounded once into the format, as `refsim::num` defines it. No code is
-/// shared with `num`, so that agreement between the two is evidence. Methods that matter for speed have no
-/// data-dependent branches, so that the compiler vectorizes plain loops over fixed arrays, for the instruction set that
-/// the loop is dispatched to.
+/// No code is shared with `num`, so that agreement between the two is evidence. Methods that matter for speed have no
+/// data-dependent branches, so that the compiler vectorizes plain loops over fixed arrays.
 ///
 /// Registers hold `T`: the number itself, as a host integer or a host float that represents every value of the format.
 /// Bit patterns are made only when a value leaves the executor ([`Lane::encode`]); all NaN are one value here.
 pub(crate) trait Lane: Copy + Send + Sync {
-    /// Type of a register component.
     type T: RegisterNumber;
     /// Type of [`Lane::general`].
     type General: Lane;
 
-    /// Decodes a bit pattern of the format.
     fn decode(&self, bits: u32) -> Self::T;
     /// Encodes a number as a bit pattern; NaN becomes the canonical NaN.
     fn encode(&self, x: Self::T) -> u32;
@@ -72,7 +67,6 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]), or a result of
     /// [`Lane::to_f64`].
     fn round_f64(&self, x: f64) -> Self::T;
-    /// Rounds a single into the format.
     #[inline(always)]
     fn round_single(&self, x: f32) -> Self::T {
         self.round_f64(f64::from(x))
@@ -166,8 +160,11 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn saturate(&self, a: Self::T) -> Self::T;
     /// `a > 1/2` with an exact 1/2; false for NaN.
     fn above_half(&self, a: Self::T) -> bool;
-    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
-    fn factor(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite; `a` if the format has no infinity.
+    #[inline(always)]
+    fn factor(&self, a: Self::T, _: Self::T) -> Self::T {
+        a
+    }
 }
 
 /// Returns `true` if the float in a slot is neither infinite nor NaN.
@@ -176,7 +173,6 @@ pub(crate) fn is_finite(raw: u32) -> bool {
     raw & 0x7fff_ffff < 0x7f80_0000
 }
 
-/// The operations that compute a number from numbers.
 pub(crate) fn apply<L: Lane>(lane: &L, operation: NumberOperation, [a, b, c]: [L::T; 3]) -> Option<L::T> {
     use NumberOperation as Op;
     Some(match operation {

@@ -244,9 +244,4 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     fn above_half(&self, a: i32) -> bool {
         2 * a > self.one
     }
-
-    #[inline(always)]
-    fn factor(&self, a: i32, _: i32) -> i32 {
-        a
-    }
 }

@@ -37,11 +37,8 @@ pub struct AlignedSum {
 /// The exact sum of addends, each truncated to `bits` bits below the largest exponent. If `least` is given and exceeds
 /// the largest exponent, it takes its place. The sum is not rounded; the caller rounds or cuts it.
 ///
-/// `bits` is at most 60, so that 2^32 addends cannot overflow. Without addends and without `least` the sum is 0, and
-/// the exponent too.
-///
-/// Every addend counts in the largest exponent, even with magnitude zero: the caller omits addends that its hardware
-/// ignores.
+/// `bits` is at most 60, so that 2^32 addends cannot overflow. Without addends and `least`, sum and exponent are 0.
+/// Addends of magnitude zero count in the largest exponent: the caller omits those that its hardware ignores.
 pub fn aligned(
     addends: impl IntoIterator<Item = Addend> + Clone,
     bits: u32,

@@ -88,11 +88,9 @@ impl BlockFormat {
 
     /// Converts numbers of a format to one block ([`BLOCK`] numbers in the specification; any count works).
     ///
-    /// The scale is `2^(e - E)`, clamped to the range of scales: `2^e` is the largest power of two not above the
-    /// largest magnitude, `2^E` the largest power of two of an element. If all numbers are zero it is the smallest
-    /// scale. Each number divided by the scale is rounded once, to nearest even; a quotient above the range becomes the
-    /// largest element (specification 6.3). The specification leaves infinities and NaN open: a block that contains one
-    /// gets the scale NaN and elements of 0, and raises `INVALID`.
+    /// Source: specification 6.3 (docs/numbers.md, "Blocks with a scale"). Numbers divided by the scale are rounded
+    /// once, to nearest even. A block that contains infinity or NaN gets the scale NaN and elements of 0, and raises
+    /// `INVALID`.
     pub fn quantize(self, from: &Format, numbers: &[u32]) -> Block {
         let values: Vec<Unpacked> = numbers.iter().map(|&bits| unpack(from, bits)).collect();
         let mut largest = None;

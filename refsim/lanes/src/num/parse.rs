@@ -217,7 +217,6 @@ fn rounding(suffix: &str) -> Option<Rounding> {
     all.into_iter().find(|(name, _)| *name == suffix).map(|(_, rounding)| rounding)
 }
 
-/// Applies one suffix.
 fn apply(format: &mut Format, set: &mut [bool; 5], text: &str, suffix: &str, at: usize) -> Result<(), FormatError> {
     let fixed = format.is_fixed();
     let unit = Unit::CARDS.into_iter().find(|(name, _)| *name == suffix);

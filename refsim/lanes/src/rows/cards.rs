@@ -93,7 +93,6 @@ fn factors<const N: usize, const M: usize>(x: [u32; M], which: usize) -> [u32; N
     factors
 }
 
-/// Applies a function to two rows.
 #[inline(always)]
 fn two(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> u32) {
     for i in 0..LANES {
@@ -113,7 +112,6 @@ fn with_table<E: Copy>(a: &LaneRow, out: &mut LaneRow, entry: impl Fn(u32) -> E,
     }
 }
 
-/// Applies a function to three rows.
 #[inline(always)]
 fn three([a, b, c]: [&LaneRow; 3], out: &mut LaneRow, f: impl Fn(u32, u32, u32) -> u32) {
     for i in 0..LANES {

@@ -34,7 +34,6 @@ pub struct Slots {
     #[expect(clippy::vec_box, reason = "rows are swapped by pointer, not by copying 1 KiB")]
     pub(super) rows: Vec<Box<Aligned>>,
     pub(super) scratch: Box<Aligned>,
-    /// Uniform values of slots for constants and given values.
     pub(super) values: Vec<u32>,
     /// `false` for slots of which only the uniform value is read.
     as_rows: Vec<bool>,

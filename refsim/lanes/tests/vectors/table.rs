@@ -5,7 +5,6 @@ use refsim_lanes::num::{Format, NumberOperation, Rounding, Unit};
 /// A column's name, and the function that computes its cell from a row.
 pub(crate) type Check<'c> = (&'c str, &'c dyn Fn(&Row<'_>) -> String);
 
-/// A row of a table.
 pub(crate) struct Row<'t> {
     columns: &'t [&'t str],
     cells: Vec<&'t str>,
@@ -58,7 +57,6 @@ pub(crate) fn check(text: &str, operands: usize, checks: &[Check<'_>]) -> usize 
     rows
 }
 
-/// A word in eight hexadecimal digits.
 pub(crate) fn digits(word: u32) -> String {
     format!("{word:08x}")
 }
@@ -68,7 +66,6 @@ pub(crate) fn format(unit: Unit) -> Format {
     Format::FP32.with_unit(unit)
 }
 
-/// The result of an operation.
 pub(crate) fn evaluate(format: Format, operation: NumberOperation, operands: [u32; 3]) -> u32 {
     operation.evaluate(format, operands).expect("the unit has the operation").bits
 }

@@ -22,6 +22,24 @@ const HINTS: [&str; 2] = ["ARB_precision_hint_fastest", "ARB_precision_hint_nice
 
 /// Parses a program whose header `!!ARBfp1.0` is at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
+    Ok(parse(text, header)?.build.finish(Version::ArbFp1_0, header))
+}
+
+/// See [`crate::asm::parameter_names`].
+pub(super) fn parameter_names(text: &str, header: Span) -> BTreeMap<String, Register> {
+    let named = |name: String, meaning: &Name| match *meaning {
+        Name::Register(register) if register.file == RegisterFile::Constant => Some((name, register)),
+        _ => None,
+    };
+    let names = parse(text, header).map(|parser| parser.names).unwrap_or_default();
+    let all = names.iter().flat_map(|(name, meaning)| match meaning {
+        Name::Array(all) => (0..).zip(all).filter_map(|(n, one)| named(format!("{name}[{n}]"), one)).collect(),
+        _ => Vec::from_iter(named((*name).to_owned(), meaning)),
+    });
+    all.collect()
+}
+
+fn parse(text: &str, header: Span) -> Result<Parser<'_>, AssembleErrors> {
     let cursor = Cursor::new(text, header.end as usize, Dialect::OpenGl);
     let mut parser = Parser {
         cursor,
@@ -33,11 +51,10 @@ pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErro
     };
     match operand::statements(&mut parser, |parser| &mut parser.cursor, Parser::statement) {
         Some(errors) => Err(errors),
-        None => Ok(parser.build.finish(Version::ArbFp1_0, header)),
+        None => Ok(parser),
     }
 }
 
-/// Meaning of a name.
 #[derive(Clone, Debug)]
 pub(super) enum Name {
     Register(Register),
@@ -92,15 +109,15 @@ impl<'a> Parser<'a> {
                 }
                 ("one precision hint".to_owned(), "a program can have only one of the two hints")
             }
-            text => match FogMode::from_name(text) {
-                Some(mode) => {
+            text => match text.parse() {
+                Ok(mode) => {
                     let fog = FogOption { mode, span: token.span };
                     if self.build.fog.replace(fog).is_none_or(|before| before.mode == mode) {
                         return Ok(());
                     }
                     ("one fog option".to_owned(), "a program can have only one fog option")
                 }
-                None => (all(), "other options are not supported"),
+                Err(_) => (all(), "other options are not supported"),
             },
         };
         Err(token.error(ErrorKind::UnknownOption, expected, help))
@@ -300,7 +317,6 @@ impl<'a> Parser<'a> {
         self.read(name, token)
     }
 
-    /// The register for a name in a source operand.
     fn read(&mut self, name: Option<Name>, token: Token<'a>) -> Parsed<Register> {
         let span = Span::new(token.span.start, self.cursor.last_end());
         match name {

@@ -13,8 +13,10 @@ mod nv;
 mod operand;
 mod print;
 
+use std::collections::BTreeMap;
+
 use super::error::{AssembleErrors, ErrorKind, SyntaxError, quote};
-use crate::isa::{Program, Span, Version};
+use crate::isa::{Program, Register, Span, Version};
 pub(super) use print::{print, register_name};
 
 /// Returns `true` if the text is an OpenGL program: it starts with `!!`.
@@ -31,20 +33,31 @@ fn body(text: &str) -> &str {
     rest
 }
 
-/// Parses a program that starts with `!!`.
-pub(super) fn assemble(text: &str) -> Result<Program, AssembleErrors> {
+/// The place of the version of a program that starts with `!!`.
+fn header(text: &str) -> Span {
     let rest = body(text);
     let start = text.len() - rest.len();
     let end = rest.find(|c: char| c.is_ascii_whitespace() || matches!(c, ';' | '#')).unwrap_or(rest.len());
-    let span = Span::new(start as u32, (start + end) as u32);
-    match rest[..end].parse() {
+    Span::new(start as u32, (start + end) as u32)
+}
+
+/// See [`super::parameter_names`].
+pub(super) fn parameter_names(text: &str) -> BTreeMap<String, Register> {
+    arb::parameter_names(text, header(text))
+}
+
+/// Parses a program that starts with `!!`.
+pub(super) fn assemble(text: &str) -> Result<Program, AssembleErrors> {
+    let span = header(text);
+    let version = &text[span.start as usize..span.end as usize];
+    match version.parse() {
         Ok(Version::Fp1_0) => nv::assemble(text, span),
         Ok(Version::ArbFp1_0) => arb::assemble(text, span),
         _ => Err(AssembleErrors::new(vec![SyntaxError::new(
             ErrorKind::UnknownVersion,
             span,
             "`!!FP1.0` or `!!ARBfp1.0`",
-            quote(&rest[..end]),
+            quote(version),
             "these two program languages of OpenGL are supported",
         )])),
     }

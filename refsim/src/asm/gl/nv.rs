@@ -30,7 +30,6 @@ pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErro
     }
 }
 
-/// Meaning of a name.
 #[derive(Clone, Copy)]
 enum Name {
     Constant([u32; 4]),
@@ -119,7 +118,7 @@ impl<'a> Parser<'a> {
     /// `GT.x`
     fn condition(&mut self) -> Parsed<Condition> {
         let token = self.cursor.next();
-        let Some(test) = ConditionTest::from_name(token.text) else {
+        let Ok(test) = token.text.parse() else {
             let names = ConditionTest::ALL.map(ConditionTest::name).join(", ");
             return Err(token.error(
                 ErrorKind::Predicate,

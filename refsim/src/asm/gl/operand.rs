@@ -144,10 +144,9 @@ pub(super) fn constant(cursor: &mut Cursor<'_>) -> Parsed<[u32; 4]> {
     Ok(all)
 }
 
-/// Parses the texture target of a fetch.
 pub(super) fn target(cursor: &mut Cursor<'_>) -> Parsed<TextureTarget> {
     let token = cursor.next();
-    TextureTarget::from_name(token.text).ok_or_else(|| {
+    token.text.parse().map_err(|_| {
         let names = TextureTarget::ALL.map(TextureTarget::name).join(", ");
         token.error(
             ErrorKind::UnknownUsage,
@@ -157,7 +156,6 @@ pub(super) fn target(cursor: &mut Cursor<'_>) -> Parsed<TextureTarget> {
     })
 }
 
-/// A parsed mnemonic.
 pub(super) struct Mnemonic {
     pub(super) spelling: &'static Spelling,
     pub(super) precision: Option<Precision>,

@@ -48,7 +48,6 @@ impl<K, V> Cache<K, V> {
     }
 }
 
-/// Pool of idle objects for reuse.
 #[derive(Debug)]
 pub(crate) struct Pool<T> {
     idle: Mutex<Vec<T>>,

@@ -3,7 +3,6 @@
 /// Allocator of words in `video`.
 #[derive(Debug, Default)]
 pub(super) struct Arena {
-    /// End of the allocated range.
     pub(super) end: usize,
     /// Free ranges below `end` in ascending order: first word, length.
     holes: Vec<(usize, usize)>,

@@ -130,7 +130,6 @@ impl<'a> GraphBuilder<'a> {
         (self.binary(k, Op::Factor, a, b), self.binary(k, Op::Factor, b, a))
     }
 
-    /// Rounding of products and sums in a format.
     fn sums(&self, k: Arith) -> SumRules {
         let format = self.formats.format(k);
         if self.is_pixel && k != Arith::Single { self.rules.sums_in(format) } else { SumRules::plain(format) }

@@ -18,7 +18,6 @@ pub(crate) const DECIDED: Slot = 2;
 pub(crate) const COUNTER: Slot = 3;
 const FIRST_REGISTER: Slot = 4;
 
-/// All register components that a program writes.
 fn written(program: &Program) -> Vec<RegisterComponent> {
     let mut out = Vec::new();
     for instruction in &program.instructions {
@@ -37,7 +36,6 @@ fn written(program: &Program) -> Vec<RegisterComponent> {
 pub(crate) struct MaskedProgram {
     /// One entry per instruction.
     pub(crate) parts: Vec<MaskedInstruction>,
-    /// Slot of each register component that the program writes.
     pub(crate) registers: BTreeMap<RegisterComponent, Slot>,
     /// First slot after the registers.
     pub(crate) first_free: Slot,

@@ -12,7 +12,6 @@ use crate::isa::{
 };
 use crate::num::NumberOperation as Op;
 
-/// Arithmetic of the numbers in a register file.
 pub(crate) fn of_file(file: RegisterFile) -> Arith {
     if file.is_half() { Arith::Half } else { Arith::Main }
 }

@@ -74,7 +74,6 @@ pub(crate) enum Detail {
     Gradients([NodeId; 4], [NodeId; 4]),
 }
 
-/// Definition of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum NodeKind {
     /// The same host bits in every lane.

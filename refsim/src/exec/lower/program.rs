@@ -84,7 +84,6 @@ fn is_arithmetic(instruction: &Instruction) -> bool {
     instruction.opcode.info().class == OpcodeClass::Arithmetic
 }
 
-/// Translates an instruction and returns its effects.
 pub(crate) fn translate_instruction(t: &mut Translator<'_>, instruction: &Instruction, effects: &mut Vec<Effect>) {
     if t.program.version.is_fragment_program() {
         return t.fragment(instruction, effects);

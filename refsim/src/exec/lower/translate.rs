@@ -27,7 +27,6 @@ pub(crate) struct CodeNodes {
     pub(super) greater: NodeId,
 }
 
-/// Effect of an instruction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Effect {
     /// Writes a component of a register; the second node is the mask of the predicate, if any.
@@ -38,7 +37,6 @@ pub(crate) enum Effect {
     Depth(Arith, NodeId),
 }
 
-/// Translates one program.
 pub(crate) struct Translator<'a> {
     pub(crate) make: GraphBuilder<'a>,
     pub(crate) program: &'a Program,
@@ -240,7 +238,6 @@ impl<'a> Translator<'a> {
         Some(if predicate.not { self.inverted(bit) } else { bit })
     }
 
-    /// The complement of a mask.
     pub(crate) fn inverted(&mut self, mask: NodeId) -> NodeId {
         let all = self.make.graph.constant(TRUE);
         self.make.binary(Arith::Single, Op::AndNot, mask, all)

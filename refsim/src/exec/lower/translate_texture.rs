@@ -137,7 +137,6 @@ impl Translator<'_> {
         }
     }
 
-    /// The coordinates of a stage after its projection.
     fn projected(&mut self, stage: u16) -> NodeVector {
         let [x, y, z, w] = self.set(stage);
         match self.bindings.and_then(|b| b.projections.get(usize::from(stage)).copied()).unwrap_or_default() {

@@ -49,7 +49,6 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// The active lanes in which a condition holds.
     fn condition(&mut self, instruction: &Instruction) -> u8 {
         let mut holds = 0;
         for lane in self.active_lanes() {

@@ -1,12 +1,6 @@
 //! OpenGL fragment programs: three precisions, condition codes, packing. Follows GL_NV_fragment_program and
-//! GL_ARB_fragment_program, and uses their mnemonics.
-//!
-//! Order within an instruction: operands are loaded, swizzled, made absolute, negated, then converted to the format of
-//! the operation. The result is saturated, converted to the format of the destination, rounded to its storage's format,
-//! and written subject to mask and condition; the written components also update the condition codes, if requested.
-//!
-//! A packed word is stored in `R#` as bits. Full-precision `MOV` without modifiers copies bits; other instructions, and
-//! the end of the program, interpret the bits as a number of the register format.
+//! GL_ARB_fragment_program, and uses their mnemonics. The order within an instruction, and packed words, are defined in
+//! docs/numbers.md, "OpenGL's fragment programs".
 
 use super::fragment_state::{ConditionCode, FragmentState};
 use super::interpreter::{ArithmeticUnit, Interpreter};
@@ -94,7 +88,6 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         out
     }
 
-    /// Computes the result in the format of the destination.
     fn fragment_result(&mut self, lane: usize, instruction: &Instruction) -> Components {
         let Some(destination) = &instruction.destination else { return [0; 4] };
         let to = self.fragment_formats().of_file(destination.register.file);

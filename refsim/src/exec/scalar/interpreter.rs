@@ -13,7 +13,6 @@ use crate::exec::{Observer, Step};
 use crate::isa::{Comparison, Instruction, Mask, Opcode, OpcodeClass, RegisterFile, Source};
 use crate::num::{Flags, Format};
 
-/// Arithmetic unit of an interpreter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ArithmeticUnit {
     /// The register format.
@@ -28,7 +27,6 @@ pub(super) enum ArithmeticUnit {
     Own,
 }
 
-/// State of an open block.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum OpenBlock {
     /// `if`
@@ -70,7 +68,6 @@ pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) padded: [[u32; 2]; LANES],
     /// Number of dot products in `padded`.
     pub(super) pads: usize,
-    /// Arithmetic in the register format.
     pub(super) full: Alu<'a>,
     /// Arithmetic of `_pp` instructions, if the device has a format for them.
     partial: Option<Alu<'a>>,
@@ -94,7 +91,6 @@ pub(super) struct Interpreter<'p, 'a, O> {
     /// Steps executed, if a budget is enforced, and the instruction before which a lane was stopped.
     pub(super) steps: [u32; LANES],
     pub(super) cut_at: [Option<usize>; LANES],
-    /// State of OpenGL fragment programs.
     pub(super) fragment: Option<Box<FragmentState<'a>>>,
     pub(super) observer: &'p mut O,
 }
@@ -136,7 +132,6 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         ArithmeticUnit::Own
     }
 
-    /// Arithmetic of a unit.
     pub(super) fn alu(&mut self, unit: ArithmeticUnit) -> &mut Alu<'a> {
         let chosen = match unit {
             ArithmeticUnit::Full => None,

@@ -11,7 +11,6 @@ use crate::num::{Format, ops};
 use crate::raster::ComponentMask;
 use crate::texture::SampleRules;
 
-/// A program with its inputs.
 pub(crate) struct Prepared<'a> {
     pub(crate) program: &'a Program,
     pub(crate) rules: &'a Rules,
@@ -20,7 +19,6 @@ pub(crate) struct Prepared<'a> {
     /// Format of registers and arithmetic.
     pub(crate) format: Format,
     pub(crate) sample_rules: SampleRules,
-    /// Interpolated components that the program can read.
     pub(crate) reads: ComponentMask,
     /// The step budget, if the program may exceed it.
     pub(crate) budget: Option<u32>,

@@ -44,7 +44,6 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// Executes an instruction that reads a texel.
     fn with_texel(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
         let version = self.prepared.program.version;
         let stage = match instruction.sources.get(1) {

@@ -92,7 +92,6 @@ pub fn library() -> String {
     constants(false) + &parts.join("\n") + &section
 }
 
-/// The operations of shaders.
 pub(super) fn operations() -> impl Iterator<Item = NumberOperation> {
     NumberOperation::ALL.into_iter().filter(|operation| !operation.is_of_vertex_units())
 }

@@ -20,7 +20,6 @@ type Literal = [Option<u32>; 4];
 pub(super) struct Builder {
     pub(super) instructions: Vec<Instruction>,
     pub(super) literals: Vec<Literal>,
-    /// Span of the next instruction in the text.
     pub(super) span: Span,
     /// `true` if the next instruction computes in f16.
     pub(super) half: bool,
@@ -266,7 +265,6 @@ impl Builder {
         self.last().into_iter().for_each(|fragment| fragment.condition = Some(condition));
     }
 
-    /// Kills the fragments in which a condition holds.
     pub(super) fn kill(&mut self, condition: Component) -> Result<(), Refusal> {
         self.half = false;
         self.set_codes(&[condition])?;

@@ -198,7 +198,6 @@ impl Builder {
         }
     }
 
-    /// A builtin function.
     pub(super) fn math(&mut self, function: F, arguments: &[Value]) -> Result {
         if let Some(known) = whole(function, arguments) {
             return Ok(known);

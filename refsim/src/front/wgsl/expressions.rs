@@ -39,7 +39,6 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Evaluates an expression and caches its value.
     pub(super) fn evaluate(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result<Meaning> {
         let span = place(frame.function.expressions.get_span(handle));
         self.step(span)?;

@@ -124,7 +124,6 @@ fn first_cause(error: &dyn std::error::Error) -> String {
 }
 
 impl Translator<'_> {
-    /// The value of an input of the entry point.
     fn input(&mut self, ty: naga::Handle<Type>, binding: Option<&Binding>) -> Result<Value, Refusal> {
         let inner = &self.module.types[ty].inner;
         let Some(binding) = binding else {

@@ -17,7 +17,6 @@ const MAX_WORK: usize = 1 << 17;
 /// Maximum number of uniforms, counted in vectors.
 const MAX_PARAMETERS: usize = (FIRST_LITERAL - FIRST_NAMED) as usize - 2;
 
-/// Value of an expression.
 #[derive(Clone, Debug)]
 pub(super) enum Meaning {
     Value(Value),
@@ -122,7 +121,6 @@ impl<'a> Translator<'a> {
         self.step(None)
     }
 
-    /// A new variable.
     pub(super) fn variable(&mut self, value: Value) -> usize {
         self.slots += 1;
         self.variables.insert(self.slots, value);
@@ -249,7 +247,6 @@ impl<'a> Translator<'a> {
         Ok(())
     }
 
-    /// The value of an expression outside of functions.
     pub(super) fn constant(&mut self, handle: Handle<Expression>) -> Result<Value, Refusal> {
         self.step(None)?;
         match &self.module.global_expressions[handle] {
@@ -265,7 +262,6 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// The value of an expression without operands.
     pub(super) fn leaf(&mut self, expression: &Expression) -> Result<Value, Refusal> {
         use naga::Literal as L;
         let module = self.module;

@@ -23,7 +23,6 @@ pub(super) struct Card {
     depths: BTreeMap<usize, GpuCopy<DepthSurface>>,
 }
 
-/// The GPU copy of a resource.
 #[derive(Debug)]
 struct GpuCopy<T> {
     base: usize,
@@ -84,7 +83,6 @@ impl<T> GpuCopy<T> {
     }
 }
 
-/// Decodes an image from its GPU words.
 fn image_of(like: &Image, words: &[u32]) -> Image {
     let mut image = like.clone();
     // The number of words matches by construction, so this cannot fail.
@@ -123,7 +121,6 @@ impl Card {
         }
     }
 
-    /// Marks a texture as overwritten by the host.
     pub(super) fn texture_overwritten(&mut self, number: usize) {
         if let Some(held) = self.textures.get_mut(&number) {
             held.overwritten();

@@ -136,7 +136,7 @@ impl Shaders {
 /// Vertex clocks: instructions of the processed vertices divided among the units, but at least the time at the stated
 /// vertex rate.
 fn vertices(draw: &DrawRecord, rates: &Rates, (cache, shaders): (CacheSize, &Shaders)) -> Clocks {
-    let (run, each) = (wide(cache.vertices_run(draw)), wide(draw.counts.vertices).max(1));
+    let (run, each) = (wide(cache.of(draw.vertices_run)), wide(draw.counts.vertices).max(1));
     let instructions = (wide(draw.counts.vertex_instructions) * run).div_ceil(each);
     let slots = instructions * wide(rates.vertex_clocks_per_slot.unwrap_or(1));
     let executed = match rates.vertex_units {

@@ -1,7 +1,7 @@
 //! Memory traffic of a draw.
 
 use crate::device::Rates;
-use crate::event::{DrawRecord, SamplerRecord, SamplerTraffic};
+use crate::event::{DrawRecord, SamplerRecord};
 
 /// Cache size assumed by a model. Draw records contain the misses for all sizes (for textures only if observed).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -16,19 +16,8 @@ pub enum CacheSize {
 }
 
 impl CacheSize {
-    /// Lines fetched by one sampler.
-    fn misses(self, seen: &SamplerTraffic) -> u64 {
-        let [half, stated, double] = seen.misses;
-        match self {
-            Self::Half => half,
-            Self::Stated => stated,
-            Self::Double => double,
-        }
-    }
-
-    /// Number of vertices processed.
-    pub(super) fn vertices_run(self, draw: &DrawRecord) -> u64 {
-        let [half, stated, double] = draw.vertices_run;
+    /// The count of this size among the counts of a draw record.
+    pub(super) fn of(self, [half, stated, double]: [u64; 3]) -> u64 {
         match self {
             Self::Half => half,
             Self::Stated => stated,
@@ -65,7 +54,7 @@ impl Traffic {
 pub fn traffic(draw: &DrawRecord, rates: &Rates, (cache, vertex_cache): (CacheSize, CacheSize)) -> Traffic {
     let bytes = &draw.counts.bytes;
     let line = rates.texture_cache_line_bytes.unwrap_or(1);
-    let misses = |s: &SamplerRecord| s.traffic.map(|seen| cache.misses(&seen));
+    let misses = |s: &SamplerRecord| s.traffic.map(|seen| cache.of(seen.misses));
     let observed = draw.is_observed();
     let missed = if observed { draw.samplers.iter().filter_map(misses).fold(0, u64::saturating_add) } else { 0 };
     Traffic {
@@ -79,7 +68,7 @@ pub fn traffic(draw: &DrawRecord, rates: &Rates, (cache, vertex_cache): (CacheSi
 
 /// Bytes of the vertices processed; vertices that have left the cache are fetched again.
 fn fetched(draw: &DrawRecord, cache: CacheSize) -> u64 {
-    let (bytes, run) = (u128::from(draw.counts.bytes.vertices), u128::from(cache.vertices_run(draw)));
+    let (bytes, run) = (u128::from(draw.counts.bytes.vertices), u128::from(cache.of(draw.vertices_run)));
     u64::try_from((bytes * run).div_ceil(u128::from(draw.counts.vertices.max(1)))).unwrap_or(u64::MAX)
 }
 

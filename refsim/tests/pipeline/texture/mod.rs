@@ -1,8 +1,7 @@
-//! Tests of `refsim::texture`: decoding and filtering compared with big rationals, addressing with a naive model,
+//! Tests of `refsim::texture`: filtering compared with big rationals, addressing with a naive model,
 //! stores exhaustively, and robustness against arbitrary bit patterns.
 
 mod addressing;
-mod decoding;
 mod filtering;
 mod layout;
 mod mipmaps;

@@ -83,3 +83,9 @@ fn impossible_images_are_refused() {
     let bytes = Image::from_bytes(TexelFormat::L8, TextureKind::D2, [2, 2, 1], 1, vec![0; 5]);
     assert_eq!(bytes, Err(TextureError::DataSize { unit: "bytes", expected: 4, found: 5 }));
 }
+
+#[test]
+fn formats_have_names_of_direct3d_too() {
+    assert_eq!(TexelFormat::named("D3DFMT_A8R8G8B8"), Some(TexelFormat::Bgra8));
+    assert_eq!(TexelFormat::named(""), None);
+}

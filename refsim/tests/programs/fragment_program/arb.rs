@@ -43,13 +43,6 @@ fn components_can_be_chosen_one_by_one() {
 }
 
 #[test]
-fn roots_are_of_magnitudes() {
-    // NV_fragment_program returns NaN here, and minus infinity for -0.
-    let text = "RSQ a.x, program.local[0].x; RSQ a.y, -program.local[0].y; RSQ a.z, program.local[0].z; MOV a.w, b;";
-    assert_eq!(color(text, &[[-4.0, 16.0, -0.0, 1.0]]), [0.5, 0.25, f32::INFINITY, 0.0]);
-}
-
-#[test]
 fn what_only_arb_has() {
     let values = [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0]];
     let with = |line: &str| color(&format!("MOV b, program.local[0]; MOV c, program.local[1]; {line}"), &values);

@@ -37,8 +37,6 @@ fn one(instruction: &str, value: [f32; 4]) -> [u32; 4] {
     run(&format!("{instruction};"), &[value]).results[0].colors[0]
 }
 
-const NAN: u32 = 0x7fc0_0000;
-
 #[test]
 fn registers_start_at_zero_and_do_not_share_what_they_hold() {
     let ran = run("MOVR R1, p[0]; MOVH H2, p[1]; MOVH H3, p[1]; ADDR R0, R1, R5;", &[[1.0, 2.0, 3.0, 4.0], [9.0; 4]]);

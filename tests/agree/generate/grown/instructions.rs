@@ -20,7 +20,6 @@ fn component(r: &mut Random) -> Swizzle {
 }
 
 impl Writer {
-    /// Inserts a random instruction or several that belong together.
     pub(super) fn insert(&self, list: &mut Vec<Instruction>, r: &mut Random) {
         let has_flow = matches!(self.version, Version::Ps2A | Version::Vs2_0);
         let at = r.below(list.len() + 1);

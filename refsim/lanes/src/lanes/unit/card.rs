@@ -31,7 +31,6 @@ pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// True if comparisons return NaN for unordered words.
     const SETS_NAN: bool;
 
-    /// The unit of a format.
     fn new(format: &Format) -> Self;
 
     fn mul(&self, a: u32, b: u32) -> u32;
@@ -121,8 +120,9 @@ impl<U: CardUnit> CardLane<U> {
     }
 
     /// Computes an operation that every arithmetic has; the result is a number.
-    fn number(&self, operation: Op, operands: [i32; 3]) -> i32 {
-        self.word(operation, operands.map(i32::cast_unsigned)).unwrap_or(NAN).cast_signed()
+    fn number(&self, operation: Op, operands: &[i32]) -> i32 {
+        let operands = [0, 1, 2].map(|i: usize| operands.get(i).copied().unwrap_or_default().cast_unsigned());
+        self.word(operation, operands).unwrap_or(NAN).cast_signed()
     }
 
     /// Computes an operation that the unit does not have.
@@ -167,6 +167,15 @@ impl<U: CardUnit> CardLane<U> {
     }
 }
 
+/// Operations of lanes that are operations on words.
+macro_rules! by_word {
+    ($($name:ident($a:ident $(, $more:ident)*) = $operation:ident;)*) => {
+        $(fn $name(&self, $a: i32 $(, $more: i32)*) -> i32 {
+            self.number(Op::$operation, &[$a $(, $more)*])
+        })*
+    };
+}
+
 /// Numbers in slots are words, held as integers.
 impl<U: CardUnit> Lane for CardLane<U> {
     type T = i32;
@@ -198,75 +207,29 @@ impl<U: CardUnit> Lane for CardLane<U> {
         Self::of_ideal(self.ideal.round_f64(x)).cast_signed()
     }
 
-    fn add(&self, a: i32, b: i32) -> i32 {
-        self.number(Op::Add, [a, b, 0])
-    }
-
-    fn mul(&self, a: i32, b: i32) -> i32 {
-        self.number(Op::Mul, [a, b, 0])
-    }
-
-    fn fused_mad(&self, a: i32, b: i32, c: i32) -> i32 {
-        self.number(Op::Mad, [a, b, c])
-    }
-
     fn exact_dot<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
         self.unit.dot(a.map(i32::cast_unsigned), b.map(i32::cast_unsigned)).cast_signed()
     }
 
-    fn div(&self, a: i32, b: i32) -> i32 {
-        self.number(Op::Div, [a, b, 0])
-    }
-
-    fn sqrt(&self, a: i32) -> i32 {
-        self.number(Op::Sqrt, [a, 0, 0])
-    }
-
-    fn rcp(&self, a: i32) -> i32 {
-        self.number(Op::Rcp, [a, 0, 0])
-    }
-
-    fn rsq(&self, a: i32) -> i32 {
-        self.number(Op::Rsq, [a, 0, 0])
-    }
-
-    fn exp2(&self, a: i32) -> i32 {
-        self.number(Op::Exp2, [a, 0, 0])
-    }
-
-    fn log2(&self, a: i32) -> i32 {
-        self.number(Op::Log2, [a, 0, 0])
-    }
-
-    fn min(&self, a: i32, b: i32) -> i32 {
-        self.number(Op::Min, [a, b, 0])
-    }
-
-    fn max(&self, a: i32, b: i32) -> i32 {
-        self.number(Op::Max, [a, b, 0])
-    }
-
-    fn frc(&self, a: i32) -> i32 {
-        self.number(Op::Frc, [a, 0, 0])
-    }
-
-    fn neg(&self, a: i32) -> i32 {
-        self.number(Op::Neg, [a, 0, 0])
-    }
-
-    fn abs(&self, a: i32) -> i32 {
-        self.number(Op::Abs, [a, 0, 0])
-    }
-
-    fn saturate(&self, a: i32) -> i32 {
-        self.number(Op::Saturate, [a, 0, 0])
+    by_word! {
+        add(a, b) = Add;
+        mul(a, b) = Mul;
+        fused_mad(a, b, c) = Mad;
+        div(a, b) = Div;
+        sqrt(a) = Sqrt;
+        rcp(a) = Rcp;
+        rsq(a) = Rsq;
+        exp2(a) = Exp2;
+        log2(a) = Log2;
+        min(a, b) = Min;
+        max(a, b) = Max;
+        frc(a) = Frc;
+        neg(a) = Neg;
+        abs(a) = Abs;
+        saturate(a) = Saturate;
     }
 
     fn above_half(&self, a: i32) -> bool {
         self.to_f64(a) > 0.5
-    }
-
-    fn factor(&self, a: i32, _: i32) -> i32 {
-        a
     }
 }

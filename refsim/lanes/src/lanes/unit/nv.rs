@@ -31,7 +31,6 @@ impl Nv {
         sign | magnitude
     }
 
-    /// The sum of up to four addends.
     pub(super) fn sum<const N: usize>(self, addends: [u32; N]) -> u32 {
         let has = |word: u32| addends.contains(&word);
         let (plus, minus) = (has(FIELD), has(FIELD | SIGN));

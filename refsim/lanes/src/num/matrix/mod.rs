@@ -227,7 +227,6 @@ impl MatrixUnit {
         addends
     }
 
-    /// The scales of the k-th numbers.
     fn scales(&self, a: Operand<'_>, b: Operand<'_>, k: usize) -> Option<[Value; 2]> {
         let (share, element) = self.scaling?;
         let scale = |operand: Operand<'_>| operand.scales.get(k / share).map(|&code| element.decode(code.into()));

@@ -12,13 +12,12 @@ use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 /// The most bits below the largest exponent that a four-addend adder keeps: their sum has 31 bits and a sign.
 pub const MAX_ALIGNED_BITS: u8 = 28;
 
-/// Sums numbers of a float format in one adder: addends are aligned to the largest exponent and truncated to `bits`
-/// bits below it; the truncated addends are added exactly, and the sum is rounded once. The exponent is that of the
-/// leading bit, even of subnormal numbers. `bits` is at most [`MAX_ALIGNED_BITS`]; more count as that many.
+/// Sums numbers of a float format in one adder: addends are truncated to `bits` bits below the largest exponent of any
+/// leading bit and added exactly; the sum is rounded once. `bits` is at most [`MAX_ALIGNED_BITS`]; more count as that
+/// many. Dropped bits raise `INEXACT`.
 ///
-/// Infinities and NaN are handled first; infinities of both signs are `INVALID`. Zeros don't count as addends. A sum of
-/// zeros that all have the same sign has that sign; other zero sums are +0, or -0 when rounding down. Dropped bits
-/// raise `INEXACT`.
+/// Infinities of both signs are `INVALID`. Zeros don't count as addends. A sum of zeros that all have the same sign has
+/// that sign; other zero sums are +0, or -0 when rounding down.
 pub fn sum_aligned(env: impl Into<Env>, bits: u8, addends: &[u32]) -> Outcome {
     let env = env.into();
     let format = &env.format;

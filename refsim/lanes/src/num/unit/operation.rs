@@ -1,6 +1,5 @@
 //! The operations that units of cards have, under the names of [`crate::num::NumberOperation`].
 
-/// An operation of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::num) enum UnitOperation {
     Add,

@@ -9,7 +9,6 @@ pub(super) const INFINITY: u32 = 0x7f80_0000;
 pub(super) const LARGEST: u32 = 0x7f7f_ffff;
 pub(super) const SIGN: u32 = 0x8000_0000;
 
-/// The fields of a word.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Word {
     /// Bit 31.

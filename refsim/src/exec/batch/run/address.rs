@@ -11,7 +11,6 @@ const FAR: f64 = 16_777_216.0;
 /// An axis of a mip level.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TexelAxis {
-    /// Extent in texels.
     pub(crate) size: u32,
     /// Texels per unit of the coordinate.
     pub(crate) scale: f64,

@@ -23,7 +23,6 @@ pub(super) struct LevelChoice {
     last: i32,
 }
 
-/// Levels read by each lane.
 #[derive(Debug)]
 pub(super) struct PickedLevels {
     pub(super) first: LaneRow,
@@ -62,7 +61,6 @@ impl LevelChoice {
         if smaller { self.state.min } else { self.state.mag }
     }
 
-    /// Selects the levels of all lanes.
     pub(super) fn pick(&self, step: &FetchStep, slots: &Slots, simd: SimdLevel) -> PickedLevels {
         let mut squares = [[0.0_f32; LANES]; 2];
         for (axis, &scale) in self.scales.iter().enumerate() {

@@ -56,7 +56,6 @@ impl TextureTable {
 }
 
 impl<'a> BatchTexture<'a> {
-    /// Prepares the texture of a sampler.
     pub(crate) fn new(binding: SamplerBinding<'a>, rules: SampleRules, lane: &AnyLane, tables: &TextureTables) -> Self {
         let key = binding.image.contents_name().map(|name| (name, binding.state, rules));
         let known = key.and_then(|key| tables.find(|known| *known == key));

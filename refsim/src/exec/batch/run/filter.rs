@@ -73,7 +73,6 @@ impl FilteredLevel {
         Self::of_level(binding, number, rules, lane)
     }
 
-    /// Prepares a level.
     pub(super) fn of_level(binding: &SamplerBinding<'_>, number: usize, rules: &SampleRules, lane: &AnyLane) -> Self {
         let SamplerBinding { image, state } = binding;
         let (sources, border) = (rules.sources(image.format()), rules.border(image.format(), state.border));
@@ -268,7 +267,6 @@ impl FilteredLevel {
         self.codes.bytes[usize::from(signed)].get_or_init(|| (0..=u8::MAX).map(raw).collect())
     }
 
-    /// Source of a component.
     pub(super) fn component(&self, number: usize) -> FilteredComponent {
         self.components[number]
     }

@@ -16,7 +16,6 @@ enum OpenBlock {
 }
 
 impl OpenBlock {
-    /// The lane masks of the block.
     fn masks(&mut self) -> impl Iterator<Item = &mut Box<LaneRow>> {
         let (restore, more) = match self {
             Self::If { restore, otherwise: more } | Self::Loop { restore, live: more, .. } => (restore, Some(more)),
@@ -124,7 +123,6 @@ impl<'p> FlowRun<'p> {
         self.cut.extend(lanes.filter(|(_, (cut, covered))| **cut & **covered != 0).map(|(lane, _)| (lane, at)));
     }
 
-    /// The active lanes in which the instruction's condition holds.
     fn condition(&self, instruction: &PlannedInstruction, slots: &mut Slots) -> LaneRow {
         run_steps(&instruction.block.steps, self.around, self.run, slots);
         instruction.block.roots.first().map_or([0; LANES], |&root| *slots.row(root))

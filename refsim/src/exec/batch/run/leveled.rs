@@ -19,7 +19,6 @@ use crate::texture::{Image, MipFilter, SampleRules, TextureKind};
 /// 16 bits and a sign, their differences one bit more, and doubles 53 bits.
 const EXACT_BITS: usize = 35;
 
-/// The levels of a texture, and their selection.
 #[derive(Debug)]
 pub(crate) struct LeveledTexture {
     choice: LevelChoice,

@@ -1,6 +1,5 @@
 //! Logarithms of singles by a table.
 
-/// Fraction bits of a single.
 const FRACTION: u32 = 23;
 /// Leading fraction bits that index the table. An interval is narrower than a step of 2^(1/256), so it contains at most
 /// one step.

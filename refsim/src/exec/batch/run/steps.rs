@@ -12,7 +12,6 @@ use crate::num::ops as definition;
 #[derive(Debug)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) formats: &'a LaneFormats,
-    /// Textures by sampler.
     pub(crate) textures: &'a [Option<BatchTexture<'a>>],
     /// Raw float constants.
     pub(crate) constants: &'a [[u32; 4]],

@@ -25,7 +25,6 @@ pub(crate) enum FetchDetail {
     Gradients([Slot; 4], [Slot; 4]),
 }
 
-/// A step of execution.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum BatchStep {
     /// Lane operations of one format.
@@ -66,7 +65,6 @@ pub(crate) enum BatchStep {
     },
 }
 
-/// A scheduled block.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepBlock {
     /// Slots of uniform values, filled before the first run and never overwritten.
@@ -214,6 +212,14 @@ impl Scheduler<'_> {
         }
     }
 
+    /// The slot of a value, which may be a slot of its operands.
+    fn replace_operands(&mut self, node: NodeId) -> Slot {
+        self.release(node);
+        let to = self.result();
+        self.place.insert(node, to);
+        to
+    }
+
     /// Frees the slots of temporaries whose last reader is `node`.
     fn release(&mut self, node: NodeId) {
         let mut done = Vec::new();
@@ -260,9 +266,7 @@ impl Scheduler<'_> {
         for i in fused.operands().len()..OPERANDS {
             args[i] = args[0];
         }
-        self.release(node);
-        let to = self.result();
-        self.place.insert(node, to);
+        let to = self.replace_operands(node);
         self.lane_op(fused.arith, LaneOp { code: fused.code, to, args, zero_wins: fused.zero_wins });
     }
 
@@ -281,9 +285,7 @@ impl Scheduler<'_> {
         match self.graph.kind(node) {
             NodeKind::Convert(from, target, operand) => {
                 let a = self.at(operand);
-                self.release(node);
-                let to = self.result();
-                self.place.insert(node, to);
+                let to = self.replace_operands(node);
                 if let Some((arith, code)) = self.graph.copies(from, target, operand) {
                     return self.lane_op(arith, LaneOp::of_one(LaneCode::Plain(code), to, a));
                 }
@@ -295,31 +297,23 @@ impl Scheduler<'_> {
                 for k in 1..sum.operands() {
                     from[k] = self.at(numbers[k]);
                 }
-                self.release(node);
-                let to = self.result();
-                self.place.insert(node, to);
+                let to = self.replace_operands(node);
                 self.block.steps.push(BatchStep::Sum { arith, sum, from, to });
             }
             NodeKind::Steps(steps, a) => {
                 let from = self.at(a);
-                self.release(node);
-                let to = self.result();
-                self.place.insert(node, to);
+                let to = self.replace_operands(node);
                 self.block.steps.push(BatchStep::Unorm { steps, from });
                 self.lane_op(Arith::Main, LaneOp::of_one(LaneCode::Narrow, to, from));
             }
             NodeKind::Circle(arith, sine, a) => {
                 let from = self.at(a);
-                self.release(node);
-                let to = self.result();
-                self.place.insert(node, to);
+                let to = self.replace_operands(node);
                 self.block.steps.push(BatchStep::Circle { arith, sine, from, to });
             }
             NodeKind::Relative(base, component, address) => {
                 let address = self.at(address);
-                self.release(node);
-                let to = self.result();
-                self.place.insert(node, to);
+                let to = self.replace_operands(node);
                 self.block.steps.push(BatchStep::Relative { base, component: component.into(), address, to });
             }
             NodeKind::Fetch(sampler, coordinates, detail) => {
@@ -350,11 +344,9 @@ impl Scheduler<'_> {
     }
 }
 
-/// Slots of a program's results.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ResultSlots {
     pub(crate) colors: [Option<[Slot; 4]>; 4],
-    /// Mask of killed lanes.
     pub(crate) killed: Option<Slot>,
     /// Depth written by the program: format, slot, and the mask of lanes that write depth, unless all do.
     pub(crate) depth: Option<(Arith, Slot, Option<Slot>)>,

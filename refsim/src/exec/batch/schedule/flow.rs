@@ -15,7 +15,6 @@ use crate::exec::lower::{
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants};
 use crate::isa::{Opcode, Program, RegisterFile};
 
-/// A decoded instruction.
 #[derive(Debug)]
 pub(crate) struct PlannedInstruction {
     pub(crate) opcode: Opcode,
@@ -23,7 +22,6 @@ pub(crate) struct PlannedInstruction {
     pub(crate) block: StepBlock,
     /// Destination slots of the block's roots; a condition has one root and no destination.
     pub(crate) to: Vec<Slot>,
-    /// Sampler read by a texture instruction.
     pub(crate) sampler: Option<usize>,
     /// Number of instruction slots.
     pub(crate) cost: u64,
@@ -47,29 +45,16 @@ pub(crate) struct FlowPlan {
 }
 
 impl FlowPlan {
-    pub(crate) fn pixel(
+    /// Plans a pixel program with its bindings, or a vertex program, which has none.
+    pub(crate) fn new(
         program: &Program,
         rules: &Rules,
         formats: Formats,
         constants: &ResolvedConstants,
-        bindings: &PixelBindings<'_>,
+        bindings: Option<&PixelBindings<'_>>,
         budget: u32,
     ) -> Self {
-        let translator = Translator::new(program, rules, formats, constants, Some(bindings));
-        Self::new(program, constants, translator, budget)
-    }
-
-    pub(crate) fn vertex(
-        program: &Program,
-        rules: &Rules,
-        formats: Formats,
-        constants: &ResolvedConstants,
-        budget: u32,
-    ) -> Self {
-        Self::new(program, constants, Translator::new(program, rules, formats, constants, None), budget)
-    }
-
-    fn new(program: &Program, constants: &ResolvedConstants, mut t: Translator<'_>, budget: u32) -> Self {
+        let mut t = Translator::new(program, rules, formats, constants, bindings);
         let MaskedProgram { parts, registers, first_free } = MaskedProgram::new(program, &mut t);
         let mut next = first_free;
         // Constants and inputs keep their slots for the whole program.

@@ -8,7 +8,6 @@ use refsim_lanes::{LaneCode, OPERANDS};
 use crate::exec::lower::{Arith, Graph, NodeId, NodeKind};
 use crate::num::NumberOperation as Op;
 
-/// A fused operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fused {
     pub(crate) arith: Arith,

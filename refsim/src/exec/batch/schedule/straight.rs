@@ -18,7 +18,6 @@ use crate::exec::{PixelBindings, ResolvedConstants};
 use crate::isa::Program;
 use crate::raster::ComponentMask;
 
-/// A straight-line pixel program as a graph.
 #[derive(Debug)]
 pub(crate) struct StraightProgram {
     graph: Graph,
@@ -48,7 +47,6 @@ pub(crate) struct StraightPlan {
 }
 
 impl StraightProgram {
-    /// Decodes a program.
     pub(crate) fn new(
         program: &Program,
         rules: &Rules,

@@ -21,7 +21,6 @@ pub(crate) struct ChannelPlace {
     pub(crate) component: usize,
 }
 
-/// Blender of one target.
 #[derive(Clone, Debug)]
 pub(crate) struct Blender {
     state: BlendState,
@@ -38,7 +37,6 @@ enum BlendValues {
     Floats(Box<AnyLane>),
 }
 
-/// Source of a component of a stored texel.
 #[derive(Clone, Copy, Debug)]
 enum StoredComponent {
     Zero,
@@ -163,7 +161,6 @@ impl Blender {
     }
 }
 
-/// The value of a blend factor for a component.
 fn factor<T: Copy + PartialOrd + Sub<Output = T>>(
     factor: BlendFactor,
     source: [T; 4],

@@ -46,7 +46,6 @@ pub(crate) struct PixelKey {
     projections: [Projection; BUMP_STAGES],
 }
 
-/// Cache of pixel programs.
 pub(crate) type PixelPrograms = Cache<PixelKey, DecodedPixel>;
 
 /// Returns a decoded pixel program, from the cache if possible.
@@ -73,7 +72,7 @@ pub(crate) fn decoded(
     programs.get(matches, || {
         let (program, constants, formats) = (program.clone(), constants.clone(), Formats::pixel(program, rules));
         let code = if has_flow(&program) {
-            PixelCode::Flow(FlowPlan::pixel(&program, rules, formats, &constants, bindings, draw.step_budget))
+            PixelCode::Flow(FlowPlan::new(&program, rules, formats, &constants, Some(bindings), draw.step_budget))
         } else {
             PixelCode::Straight(StraightProgram::new(&program, rules, formats, &constants, bindings), Mutex::default())
         };

@@ -50,7 +50,6 @@ impl Shaded<'_> {
         alive.map(move |(lane, at)| Fragment { lane: at.tile_lane, ..self.fragment(lane, survivors.depth[lane]) })
     }
 
-    /// Appends the surviving fragments.
     pub(crate) fn gather(&self, survivors: &Survivors, out: &mut Vec<Fragment>) {
         match self.packed {
             _ if survivors.count == 0 => {}
@@ -63,7 +62,6 @@ impl Shaded<'_> {
     }
 }
 
-/// Output stage of a draw.
 #[derive(Clone, Debug)]
 pub(crate) struct OutputStage {
     pub(crate) state: OutputState,

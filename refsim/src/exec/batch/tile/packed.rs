@@ -26,7 +26,6 @@ pub(crate) struct PackedFragment {
     pub(crate) x: u32,
     pub(crate) y: u32,
     pub(crate) triangle: u32,
-    /// The pixel's lane in the tile.
     pub(crate) tile_lane: u8,
     /// `false` for helper lanes of a quad.
     pub(crate) covered: bool,
@@ -48,7 +47,6 @@ pub(crate) struct PackedLanes {
     /// Number of leading fragments that passed the early depth test.
     pub(crate) tested: usize,
     pub(crate) covered: LaneRow,
-    /// Lanes in use.
     pub(crate) run: LaneRow,
     pub(crate) depth: LaneRow,
     pub(super) linear: [[f32; LANES]; 2],
@@ -182,7 +180,6 @@ impl PackedLanes {
         self.tested = kept;
     }
 
-    /// Interpolated depths of the untested fragments.
     pub(crate) fn untested_depths(&self) -> LaneRow {
         let mut row = [0; LANES];
         for (depth, fragment) in row.iter_mut().zip(&self.fragments[self.tested..]) {

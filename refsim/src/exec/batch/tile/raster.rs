@@ -26,7 +26,6 @@ const SQUARE: u8 = 0;
 const FLAT: u8 = 1;
 const LINE: u8 = 2;
 
-/// Position of the lanes of a tile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct TileFrame {
     /// Column and row of lane 0.
@@ -189,7 +188,6 @@ impl TileWeights {
         }
     }
 
-    /// Depth in every lane.
     pub(crate) fn depth(&self, setup: &TriangleSetup, out: &mut LaneRow) {
         if setup.depth_constant {
             out.fill(setup.depth.base);

@@ -1,10 +1,8 @@
-//! Shading of one tile: disjoint triangles are processed together, and rows of previous triangles are reused while
-//! valid.
+//! Shading of one tile: rows of previous triangles are reused while valid.
 //!
 //! A *part* is a sequence of triangles with equal constant components that cover disjoint pixels of the tile: the two
-//! halves of a quad, or neighbours in a mesh. Lanes are independent, so one pass of the program processes all of them,
-//! each lane with the components of its triangle. Bits and counts are the same as for processing the triangles one by
-//! one.
+//! halves of a quad, or neighbours in a mesh. One pass of the program processes all of them, each lane with the
+//! components of its triangle. Bits and counts are the same as for processing the triangles one by one.
 
 use refsim_lanes::{LANES, LaneRow, SimdLevel, Slots};
 

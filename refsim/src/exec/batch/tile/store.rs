@@ -33,7 +33,6 @@ impl Survivors {
 /// Up to this number of fragments, writing fragment by fragment is faster than encoding whole rows.
 const FEW: u32 = 24;
 
-/// Writes one texel.
 pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, formats: &LaneFormats) {
     let main = formats.lane(Arith::Main).reading();
     if let Some(blender) = &rows.packing.blender {
@@ -59,7 +58,6 @@ pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, fo
     }
 }
 
-/// Writes the texels of the surviving lanes.
 pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&LaneRow; 4], survivors: &Survivors, formats: &LaneFormats) {
     if survivors.count <= FEW || rows.packing.blender.is_some() {
         for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {

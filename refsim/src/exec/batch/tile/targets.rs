@@ -81,12 +81,10 @@ pub(crate) struct ColorRows {
     pub(crate) words: Vec<LaneRow>,
 }
 
-/// The targets of one tile.
 #[derive(Debug)]
 pub(crate) struct Targets<'t> {
     pub(crate) tile: &'t mut TargetTile,
     pub(crate) frame: TileFrame,
-    /// Depths of the lanes within the tile's region.
     pub(crate) depth: Option<Box<LaneRow>>,
     /// Targets that are written in rows; other targets are written in the tile.
     pub(crate) colors: [Option<ColorRows>; MAX_TARGETS],
@@ -112,7 +110,6 @@ impl<'t> Targets<'t> {
         Self { tile, frame, depth, colors }
     }
 
-    /// Stores the rows into the tile.
     pub(crate) fn store(self) {
         let region = self.tile.region;
         if let (Some(row), Some(buffer)) = (&self.depth, &mut self.tile.depth) {

@@ -27,7 +27,6 @@ pub struct Instances<'a> {
     pub triangles: &'a [[usize; 3]],
 }
 
-/// Outcome of setting up a triangle's shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ShapeOutcome {
     /// An index into the chunk's shapes.

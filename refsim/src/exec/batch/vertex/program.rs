@@ -68,7 +68,6 @@ pub(crate) struct VertexKey {
     budget: u32,
 }
 
-/// Cache of vertex programs.
 pub(crate) type VertexPrograms = Cache<VertexKey, DecodedVertex>;
 
 /// Returns a decoded program, from the cache if possible. The first constants of a program are folded into it. For
@@ -92,11 +91,12 @@ fn decoded(
     let matches = |key: &VertexKey| if open { key.constants.is_none() && same(key) } else { folded(key) };
     programs.get(matches, || {
         let code = if has_flow(program) {
-            VertexCode::Flow(Box::new(FlowPlan::vertex(
+            VertexCode::Flow(Box::new(FlowPlan::new(
                 program,
                 rules,
                 Formats::vertex(program, rules),
                 constants,
+                None,
                 budget,
             )))
         } else {

@@ -17,7 +17,6 @@ pub(crate) struct Triangle {
     pub(crate) planes: u32,
 }
 
-/// The planes of one component, for all triangles.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PlaneRows {
     /// Component, as in [`ComponentMask`].
@@ -132,7 +131,6 @@ impl Surfaces {
         self.triangles.iter().fold(u64::MAX, |mask, t| mask & self.constant[t.planes as usize])
     }
 
-    /// Planes of a component.
     pub(crate) fn row(&self, component: u16) -> Option<&PlaneRows> {
         self.rows.iter().find(|row| row.component == usize::from(component))
     }

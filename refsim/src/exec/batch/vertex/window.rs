@@ -11,7 +11,6 @@ use crate::raster::{ClipSpace, Corner, FARTHEST, GUARD_BAND, LEAST_W, RasterRule
 /// Vertices per task.
 const SPAN: usize = 4096;
 
-/// Clip test result of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ClipResult {
     /// Inside all planes.
@@ -107,7 +106,6 @@ impl Window {
         Self { spans }
     }
 
-    /// Clip test result of a vertex.
     pub(crate) fn clipped(&self, vertex: usize) -> ClipResult {
         ClipResult::ALL[self.spans[vertex / SPAN].flags[vertex % SPAN] as usize & 3]
     }

@@ -19,7 +19,6 @@ pub(super) const COLORS: u16 = INPUT + 47;
 pub(super) const KILLED: u16 = COLORS + 16;
 pub(super) const DEPTH: u16 = KILLED + 1;
 pub(super) const DEPTH_IS_MAIN: u16 = DEPTH + 1;
-/// Number of input and output rows.
 pub(crate) const IN_OUT_ROWS: usize = (DEPTH_IS_MAIN - INPUT) as usize + 1;
 /// Code for a missing operand.
 pub(super) const NONE: u16 = 0xffff;

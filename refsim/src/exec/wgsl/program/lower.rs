@@ -5,7 +5,7 @@ use crate::device::Rules;
 use crate::exec::lower::{Arith, Effect, Formats, Graph, NodeId, Translator, has_flow, translate_straight};
 use crate::exec::trace::{makes_step, written_mask};
 use crate::exec::usage::registers_delivered;
-use crate::exec::{PixelBindings, ResolvedConstants};
+use crate::exec::{CheckedProgram, PixelBindings, ResolvedConstants};
 use crate::isa::{Mask, Program};
 
 /// What the values of a sink are used for.
@@ -34,9 +34,9 @@ impl Sink {
     }
 }
 
-/// A program as values and their uses.
+/// A pixel program as values and their uses, ready to be encoded.
 #[derive(Clone, Debug)]
-pub(super) struct Lowered {
+pub struct PixelShader {
     pub(super) graph: Graph,
     pub(super) formats: Formats,
     pub(super) sinks: Vec<Sink>,
@@ -44,15 +44,19 @@ pub(super) struct Lowered {
     pub(super) fetches: Vec<usize>,
 }
 
-/// Returns `true` if shaders can run a pixel program: it has no flow control, and no format of a vertex unit.
-pub(super) fn supports(program: &Program, rules: &Rules) -> bool {
+/// Returns `true` if shaders can run a pixel program: it has no flow control, and no vertex unit of a card computes it.
+pub fn supports(program: &CheckedProgram, rules: &Rules) -> bool {
     !has_flow(program) && !Formats::pixel(program, rules).has_vertex_unit()
 }
 
-impl Lowered {
-    /// Lowers a pixel program; if `traced`, the results of every instruction are recorded.
-    pub(super) fn pixel(
-        program: &Program,
+impl PixelShader {
+    /// Prepares a pixel program to run under `rules` with `bindings`. If `traced`, the results of every instruction are
+    /// recorded ([`crate::exec::wgsl::follow`]).
+    ///
+    /// # Errors
+    /// [`ProgramError::Unsupported`] unless [`supports`].
+    pub fn new(
+        program: &CheckedProgram,
         rules: &Rules,
         bindings: &PixelBindings<'_>,
         traced: bool,

@@ -3,7 +3,7 @@
 use super::Interpolation;
 use super::assembler::{Assembler, COLORS, DEPTH, DEPTH_IS_MAIN, FIRST_CONSTANT, INPUT, SETUP};
 use super::error::ProgramError;
-use super::lower::Lowered;
+use super::lower::PixelShader;
 use super::operations as op;
 use crate::device::MAX_PROGRAM_FORMATS;
 use crate::exec::lower::Arith;
@@ -31,43 +31,49 @@ pub struct Microcode {
     pub passes: u32,
 }
 
-pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>) -> Result<Microcode, ProgramError> {
-    let formats = program.formats.own().len();
-    if formats > MAX_PROGRAM_FORMATS {
-        return Err(ProgramError::TooManyFormats { formats, most: MAX_PROGRAM_FORMATS });
+impl PixelShader {
+    /// Encodes the program for [`super::machine`], preceded by interpolation if given.
+    ///
+    /// # Errors
+    /// [`ProgramError::TooLarge`].
+    pub fn microcode(&self, interpolation: Option<&Interpolation>) -> Result<Microcode, ProgramError> {
+        let formats = self.formats.own().len();
+        if formats > MAX_PROGRAM_FORMATS {
+            return Err(ProgramError::TooManyFormats { formats, most: MAX_PROGRAM_FORMATS });
+        }
+        let mut maker = Assembler {
+            graph: &self.graph,
+            formats: &self.formats,
+            words: vec![0; HEADER],
+            pool: BTreeMap::new(),
+            next: 0,
+            parts: Parts::default(),
+            samplers: BTreeSet::new(),
+            passes: 0,
+        };
+        maker.words[0] = HEADER as u32;
+        maker.format(Arith::Main);
+        maker.push(op::ZERO, 0);
+        maker.words.extend([COLORS, DEPTH_IS_MAIN - COLORS + 1].map(u32::from));
+        maker.emit(op::COPY, 0, DEPTH, [INPUT + POSITION_COMPONENT as u16 + 2; 3]);
+        maker.program(&self.sinks);
+        let mut counts: BTreeMap<usize, u32> = BTreeMap::new();
+        for &sampler in &self.fetches {
+            *counts.entry(sampler).or_default() += 1;
+        }
+        for (sampler, count) in counts {
+            maker.push(op::FETCHED, (sampler as u32) << 16);
+            maker.words.push(count);
+        }
+        maker.push(op::END, 0);
+        let passes = maker.passes;
+        maker.words[2] = maker.words.len() as u32;
+        if let Some(interpolation) = interpolation {
+            maker.interpolate(interpolation);
+        }
+        maker.push(op::ENTER, 0);
+        maker.finish(passes)
     }
-    let mut maker = Assembler {
-        graph: &program.graph,
-        formats: &program.formats,
-        words: vec![0; HEADER],
-        pool: BTreeMap::new(),
-        next: 0,
-        parts: Parts::default(),
-        samplers: BTreeSet::new(),
-        passes: 0,
-    };
-    maker.words[0] = HEADER as u32;
-    maker.format(Arith::Main);
-    maker.push(op::ZERO, 0);
-    maker.words.extend([COLORS, DEPTH_IS_MAIN - COLORS + 1].map(u32::from));
-    maker.emit(op::COPY, 0, DEPTH, [INPUT + POSITION_COMPONENT as u16 + 2; 3]);
-    maker.program(&program.sinks);
-    let mut counts: BTreeMap<usize, u32> = BTreeMap::new();
-    for &sampler in &program.fetches {
-        *counts.entry(sampler).or_default() += 1;
-    }
-    for (sampler, count) in counts {
-        maker.push(op::FETCHED, (sampler as u32) << 16);
-        maker.words.push(count);
-    }
-    maker.push(op::END, 0);
-    let passes = maker.passes;
-    maker.words[2] = maker.words.len() as u32;
-    if let Some(interpolation) = interpolation {
-        maker.interpolate(interpolation);
-    }
-    maker.push(op::ENTER, 0);
-    maker.finish(passes)
 }
 
 impl Assembler<'_> {

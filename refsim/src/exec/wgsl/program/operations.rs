@@ -24,7 +24,6 @@ pub(in crate::exec::wgsl) fn plain() -> impl Iterator<Item = String> {
     NAMES[..FIRST_COSTLY as usize].iter().map(|name| constant(name))
 }
 
-/// Names of the constants of all operations.
 pub(in crate::exec::wgsl) fn all() -> impl Iterator<Item = String> {
     NAMES.iter().map(|name| constant(name))
 }
