@@ -141,6 +141,8 @@ fn steps(faces: &[Face], subdivision: Subdivision) -> Result<(Vec<[u32; 2]>, usi
         Subdivision::AtMost(most) => steps_for_at_most(faces, most),
     };
     let found = steps.iter().map(|&[u, v]| u as usize * v as usize).sum();
+    ensure!(faces.len() <= MAX_PATCHES, "radiosity::patches" =>
+        "expected at most {MAX_PATCHES} faces, each at least one patch, found {}", faces.len());
     ensure!(found <= MAX_PATCHES, "radiosity::patches" =>
         "expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer");
     Ok((steps, found))
