@@ -1,12 +1,6 @@
 //! A face's rectangle of texels, and the map between the rectangle and the face.
 //!
-//! The corners of the rectangle, in turn, map to the corners a and b of the face, the middle m of the edge from b to c,
-//! and c. The triangles (a, b, m) and (a, m, c) have equal areas in the rectangle and in the face, so the map is affine
-//! in each triangle, continuous across the diagonal, and preserves ratios of areas: every texel of a face has the same
-//! area.
-//!
-//! With (u, v) from 0 to 1 along the sides from a to b and from a to c, and s the smaller of the two, the barycentric
-//! weights are 1 - u - v + s for a, u - s/2 for b and v - s/2 for c.
+//! docs/atlas.md defines the map: affine in each half, continuous across the diagonal, and preserving ratios of areas.
 
 use glam::DVec3;
 

@@ -15,13 +15,19 @@ use crate::error::InputError;
 use crate::linalg::Matrix;
 
 /// A system in the layout of the card's textures.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardSystem {
-    packing: Packing,
-    size: usize,
-    block: usize,
-    matrix: Texels,
-    emittance: Texels,
+    /// The layout of elements in texels.
+    pub packing: Packing,
+    /// Number of patches.
+    pub size: usize,
+    /// Texels per block.
+    pub block: usize,
+    /// Texture of A.
+    pub matrix: Texels,
+    /// Texture of e.
+    pub emittance: Texels,
 }
 
 impl CardSystem {
@@ -56,41 +62,6 @@ impl CardSystem {
         let matrix = packing::filled("a matrix", [width, rows], limit, |_, _| [0.0; 4])?;
         let emittance = packing::filled("a vector", [width, 1], limit, |_, _| [0.0; 4])?;
         Ok(Self { packing, size, block: block.max(1), matrix, emittance })
-    }
-
-    /// The layout of elements in texels.
-    pub fn packing(&self) -> Packing {
-        self.packing
-    }
-
-    /// Number of patches.
-    pub fn len(&self) -> usize {
-        self.size
-    }
-
-    /// Returns `true` if there are no patches.
-    pub fn is_empty(&self) -> bool {
-        self.size == 0
-    }
-
-    /// Texels per block.
-    pub fn block(&self) -> usize {
-        self.block
-    }
-
-    /// Texture of A.
-    pub fn matrix(&self) -> &Texels {
-        &self.matrix
-    }
-
-    /// Texture of e.
-    pub fn emittance(&self) -> &Texels {
-        &self.emittance
-    }
-
-    /// Passes per iteration: the matrix's width divided by the block's.
-    pub fn passes(&self) -> usize {
-        self.matrix.width.div_ceil(self.block)
     }
 }
 

@@ -1,9 +1,7 @@
-//! Exact results for polygons, cubes and spheres: compares contour integrals with brute force.
+//! Contour integrals over polygons, compared with brute force, with the plane and with solid angles.
 
-use crate::environment::is_full;
 use approx::assert_relative_eq;
 use crossbar::elementary::atan2;
-use crossbar::quadrature::EIGHT;
 use crossbar::subsurface::{Coefficients, Dipole};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -79,53 +77,4 @@ fn without_absorption_factors_in_the_plane_are_solid_angles() {
         let exact = (angles[0] + angles[1]) / (4.0 * PI);
         assert_relative_eq!(point_to_polygon(&dipole, point, &triangle), exact, max_relative = 1e-12);
     }
-}
-
-/// The mean of the cube's row sums, over points in an eighth of a face that are denser toward the edges.
-fn cube(dipole: &Dipole, side: f64, panels: u32) -> f64 {
-    let at = |x: f64, y: f64, z: f64| side * DVec3::new(x, y, z);
-    let faces = [0, 1, 2].into_iter().flat_map(|axis| [0.0, 1.0].map(|end| (axis, end)));
-    let faces: Vec<[DVec3; 4]> = faces
-        .map(|(axis, end)| {
-            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]| match axis {
-                0 => at(end, u, v),
-                1 => at(u, end, v),
-                _ => at(u, v, end),
-            })
-        })
-        .collect();
-    let mut places = Vec::new();
-    let mut end = 0.5;
-    for panel in 0..panels {
-        let start = if panel + 1 == panels { 0.0 } else { 0.5 * end };
-        places.extend(EIGHT.map(|(x, weight)| (start + (end - start) * x, 2.0 * (end - start) * weight)));
-        end = start;
-    }
-    let mut sum = 0.0;
-    for (i, &(x, wx)) in places.iter().enumerate() {
-        for &(y, wy) in &places[..=i] {
-            let row: f64 = faces.iter().map(|face| point_to_polygon(dipole, at(x, y, 0.0), face)).sum();
-            sum += row * wx * wy * if x == y { 1.0 } else { 2.0 };
-        }
-    }
-    sum
-}
-
-#[test]
-fn without_absorption_a_cube_loses_or_makes_energy() {
-    let dipole = dipole(1.0, 0.0);
-    let sums = [(10.0, 3, "0.8957"), (100.0, 6, "1.0238"), (1000.0, 8, "1.0068")];
-    let others = [(20.0, 4, "0.9859"), (30.0, 4, "1.0101"), (50.0, 5, "1.0228"), (200.0, 7, "1.0184")];
-    let full = is_full();
-    for (side, panels, printed) in sums.into_iter().chain(others.into_iter().filter(|_| full)) {
-        assert_eq!(format!("{:.4}", cube(&dipole, side, panels)), printed, "side {side}");
-    }
-}
-
-/// Chords of a sphere are shorter than twice the radius, and every ring of chords has the area of a flat ring.
-#[test]
-fn without_absorption_a_sphere_loses_energy() {
-    let dipole = dipole(1.0, 0.0);
-    let sums = [1.0, 5.0, 10.0, 50.0, 100.0].map(|radius: f64| format!("{:.4}", dipole.disc(2.0 * radius)));
-    assert_eq!(sums, ["0.3200", "0.7462", "0.8660", "0.9727", "0.9863"]);
 }

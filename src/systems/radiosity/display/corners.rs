@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geom::vector::narrow;
+use crate::geom::vector::{narrow, place_bits};
 use crate::radiosity::Patches;
 use glam::DVec3;
 
@@ -99,5 +99,5 @@ pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]
 
 /// Key of a corner: its f32 bits, which neighbours share, with -0 as +0.
 pub(super) fn place(corner: DVec3) -> [u32; 3] {
-    narrow(corner).map(|x| (x + 0.0).to_bits())
+    place_bits(narrow(corner))
 }

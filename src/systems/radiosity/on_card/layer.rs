@@ -24,8 +24,7 @@ pub(super) struct SystemLayout {
 
 impl SystemLayout {
     pub(super) fn of(system: &CardSystem) -> Self {
-        let matrix = system.matrix();
-        let (packing, size, block) = (system.packing(), system.len(), system.block());
+        let &CardSystem { packing, size, block, ref matrix, .. } = system;
         Self { packing, size, block, width: matrix.width, rows: matrix.height }
     }
 }
@@ -47,8 +46,8 @@ impl Layer {
     pub(super) fn new(machine: &mut Machine, system: &CardSystem, storage: Storage) -> Result<Self, CardError> {
         let layout = SystemLayout::of(system);
         let format = storage.format();
-        let matrix = system.matrix().upload(machine, format)?;
-        let emittance = system.emittance().upload(machine, format)?;
+        let matrix = system.matrix.upload(machine, format)?;
+        let emittance = system.emittance.upload(machine, format)?;
         let size = [layout.width, 1];
         let radiosity = new_target(machine, format, size)?;
         let partial = PingPong::new(machine, format, size)?;

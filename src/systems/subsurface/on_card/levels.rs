@@ -52,12 +52,12 @@ impl LeveledMap {
     }
 
     /// Bytes on the card: the map, its levels, and the row of levels.
-    pub(super) fn bytes(format: MapFormat, side: u32, layout: LinkLayout) -> [u64; 3] {
+    pub(super) fn bytes(format: MapFormat, side: u32, layout: LinkLayout) -> u64 {
         let texel = format.format().bytes() as u64;
         let base = u64::from(side) * u64::from(side) * texel;
-        let levels = (1..=side.ilog2()).map(|level| base >> (2 * level)).sum();
+        let levels: u64 = (0..=side.ilog2()).map(|level| base >> (2 * level)).sum();
         let row = if !format.is_leveled() && layout == LinkLayout::Adaptive { 2 * base } else { 0 };
-        [base, levels, row]
+        levels + row
     }
 
     pub(super) fn fill(&self, machine: &mut Machine) -> Result<(), CardError> {
