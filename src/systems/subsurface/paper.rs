@@ -71,14 +71,9 @@ impl<'a> Reference<'a> {
         Ok(Self { atlas, mm_per_unit, dipole: *dipole, r_d: DipoleSum::new(dipole), texels })
     }
 
-    /// The radiosity of every texel for an irradiance of every texel, row by row: equation 9, B_i = sum over j of F_ij
-    /// E_j. `done` is called repeatedly with the number of finished rows and of all rows.
-    pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, InputError> {
-        self.radiosity_of_rows(irradiance, 0..self.atlas.side() as usize, done)
-    }
-
-    /// Like [`Self::radiosity`], for the texels of some rows.
-    pub fn radiosity_of_rows(
+    /// The radiosity of the texels of some rows for an irradiance of every texel, row by row: equation 9, B_i = sum over
+    /// j of F_ij E_j. `done` is called repeatedly with the number of finished rows and of all these rows.
+    pub fn radiosity(
         &self,
         irradiance: &[f64],
         rows: Range<usize>,

@@ -2,15 +2,12 @@
 
 use approx::assert_relative_eq;
 use crossbar::elementary::atan2;
-use crossbar::subsurface::{Coefficients, Dipole};
+use crossbar::subsurface::Dipole;
 use glam::DVec3;
 use std::f64::consts::PI;
 
+use super::links_models::medium;
 use super::polygon::point_to_polygon;
-
-fn dipole(sigma_s_prime: f64, sigma_a: f64) -> Dipole {
-    Dipole::new(Coefficients { sigma_s_prime, sigma_a }, 1.3).unwrap()
-}
 
 /// The factor to a triangle by the midpoint rule over `cells` squared small triangles.
 fn brute_force(dipole: &Dipole, point: DVec3, [a, b, c]: [DVec3; 3], cells: u32) -> f64 {
@@ -35,7 +32,7 @@ fn contours_are_sums_of_small_triangles() {
     let triangle = [DVec3::new(0.3, -1.0, 0.5), DVec3::new(4.0, 0.5, 1.5), DVec3::new(-1.0, 2.5, 0.0)];
     let inside = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
     let normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalize();
-    for dipole in [dipole(1.0, 0.0), dipole(1.0, 0.05), dipole(0.4, 1.0)] {
+    for dipole in [medium(1.0, 0.0), medium(1.0, 0.05), medium(0.4, 1.0)] {
         for point in [inside, inside + 0.7 * normal, triangle[0], triangle[1] - 3.0 * normal, DVec3::new(5.0, 5.0, 5.0)]
         {
             let [coarse, fine] = [200, 400].map(|cells| brute_force(&dipole, point, triangle, cells));
@@ -52,7 +49,7 @@ fn contours_are_sums_of_small_triangles() {
 #[test]
 fn a_large_square_is_the_plane() {
     let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| 1e9 * DVec3::new(x, y, 0.0));
-    for dipole in [dipole(2.21, 0.0012), dipole(0.01, 3.0), dipole(1e3, 1.0)] {
+    for dipole in [medium(2.21, 0.0012), medium(0.01, 3.0), medium(1e3, 1.0)] {
         let factor = point_to_polygon(&dipole, DVec3::new(3.0, -7.0, 0.0), &square);
         assert_relative_eq!(factor, dipole.total(), max_relative = 1e-12);
         let above = point_to_polygon(&dipole, DVec3::new(3.0, -7.0, 0.8), &square);
@@ -70,7 +67,7 @@ fn solid_angle(from: DVec3, corners: [DVec3; 3]) -> f64 {
 
 #[test]
 fn without_absorption_factors_in_the_plane_are_solid_angles() {
-    let dipole = dipole(0.7, 0.0);
+    let dipole = medium(0.7, 0.0);
     let triangle = [DVec3::new(0.0, 0.0, 0.0), DVec3::new(9.0, 1.0, 0.0), DVec3::new(2.0, 6.0, 0.0)];
     for point in [DVec3::new(3.0, 2.0, 0.0), DVec3::new(-2.0, 1.0, 0.0), DVec3::new(1e-9, 1e-8, 0.0)] {
         let angles = [dipole.z_r(), dipole.z_v()].map(|z| solid_angle(point + z * DVec3::Z, triangle));

@@ -16,6 +16,7 @@ use bands::{LinkBands, PackedCluster, check, fixed_clusters};
 
 pub use bands::MAX_FACTORS;
 pub use choice::LinkChoice;
+pub(super) use encode::link_textures;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
 pub use gather::{IrradianceMeans, MeanWeighting};
 
