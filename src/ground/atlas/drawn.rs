@@ -27,7 +27,6 @@ pub struct DrawnFace {
     /// The corners in the order of the face, to be drawn at their positions: m would be a T-junction, which causes
     /// cracks. The componentwise minimum of the two interpolated pairs is the place in the atlas.
     pub whole: [DrawnVertex<[[u32; 2]; 2]>; 3],
-    /// Smallest and largest texel coordinates of reads, `[x, y, x, y]`: half a texel inside the rectangle's border, so
-    /// that a bilinear read stays on the face.
+    /// Texel coordinates to clamp reads to, `[x, y, x, y]`, as in [`super::FacePlace::bounds`].
     pub bounds: [f64; 4],
 }

@@ -6,8 +6,7 @@ use super::place::FacePlace;
 use super::surface::combined;
 use crate::geom::vector::clipped;
 
-/// Part of a face under a rectangle of its texels: one or two flat convex polygons, because the diagonal of the face's
-/// rectangle may divide it.
+/// Part of a face under a rectangle of its texels: one or two flat convex polygons, on both sides of the diagonal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TexelPart(Vec<Vec<DVec3>>);
 

@@ -90,8 +90,7 @@ impl Accumulator {
     }
 }
 
-/// The predicted error of each radiosity, to first order, given the exact solution. Fails with [`InputError`]. Panics
-/// if there is not one radiosity per patch.
+/// The predicted error of each radiosity, to first order. Panics if `exact` has not one radiosity per patch.
 pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Result<Vec<[f64; 3]>, InputError> {
     assert_eq!(exact.len(), system.factors().len(), "one radiosity per patch");
     let mut off = vec![[0.0; 3]; exact.len()];

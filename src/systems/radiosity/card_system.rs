@@ -31,8 +31,7 @@ pub struct CardSystem {
 }
 
 impl CardSystem {
-    /// Lays out all three channels of a system, one texel per element, in blocks of `block` texels per pass (at least
-    /// 1). Textures have at most `limit` texels per side.
+    /// Lays out all three channels, one texel per element, in blocks of `block` texels, with sides of at most `limit`.
     pub fn rgb(system: &System, block: usize, limit: usize) -> Result<Self, InputError> {
         let size = system.factors().len();
         let mut right: Vec<[f64; 3]> = system.emittance().to_vec();
@@ -65,8 +64,7 @@ impl CardSystem {
     }
 }
 
-/// The right-hand sides divided by the diagonal of the system's matrix: one texture of three channels, or one per
-/// channel.
+/// The right-hand sides divided by the diagonal: one texture of three channels, or one per channel.
 pub fn emittances(system: &System, packing: Packing, limit: usize) -> Result<Vec<Texels>, InputError> {
     let factors = system.factors().matrix();
     let divided = |(i, e): (usize, &[f64; 3])| {

@@ -120,8 +120,7 @@ fn patches(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// Table of the vertices of the smooth display: position, first vertex of the model at that position, material of the
-/// patches, and radiosity by each method.
+/// Table of the vertices of the smooth display, each with the first vertex of the model at its position.
 fn vertices(outcome: &RadiosityOutcome) -> Table {
     let mut of_model: BTreeMap<[u32; 3], u32> = BTreeMap::new();
     for (vertex, &at) in (0..).zip(outcome.patches.mesh().positions()) {
@@ -165,8 +164,7 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
 /// Ratio of mean errors above which a setting of a switch has its own line; the table has all settings.
 const APART: f64 = 1.5;
 
-/// Chart of the mean error by number of patches: a line per method on the card with its defaults, and a line per
-/// setting that makes a difference. `None` without a sweep.
+/// Chart of the mean error by number of patches, for the defaults and for settings that make a difference.
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let error = |row: &SweepRow| 100.0 * row.error.bias.abs();
     let apart = |row: &SweepRow| {

@@ -29,8 +29,7 @@ impl SystemLayout {
     }
 }
 
-/// A system's textures. A pass reads the radiosities and the previous pass's partial sums, and writes new partial sums;
-/// the last pass's sums are the new radiosities.
+/// A system's textures. A pass reads the radiosities and partial sums; the last pass's sums are the new radiosities.
 #[derive(Debug)]
 pub(super) struct Layer {
     layout: SystemLayout,

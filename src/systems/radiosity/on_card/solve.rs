@@ -25,8 +25,7 @@ pub struct CardSolution {
     pub history: Vec<(u32, [f64; 3])>,
     /// `true` if the tolerance was reached.
     pub converged: bool,
-    /// The cycle or fixed point in which the radiosities ended without reaching the tolerance; `None` if no cycle was
-    /// found.
+    /// The cycle or fixed point in which the radiosities ended without reaching the tolerance.
     pub cycle: Option<Cycle>,
 }
 

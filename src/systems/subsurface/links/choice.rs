@@ -59,8 +59,7 @@ impl<const N: usize> Candidate<N> {
     }
 }
 
-/// Order of replacement: texels last; then by highest factor (for RGB, the sum of the three), higher level, lower row,
-/// lower column.
+/// Order of replacement: texels last; then by highest sum of factors, higher level, lower row, lower column.
 type Rank = (bool, i64, u32, Reverse<u32>, Reverse<u32>);
 
 impl<const N: usize> Candidate<N> {

@@ -67,8 +67,7 @@ impl FaceMap {
         Window { s, t }
     }
 
-    /// The convex polygons under a window, on both sides of the diagonal; if the window is not bent, one polygon has no
-    /// corners.
+    /// The convex polygons under a window on both sides of the diagonal; one is empty if the window is not bent.
     pub(super) fn outlines(&self, Window { s: [s0, s1], t: [t0, t1] }: Window) -> [Vec<DVec3>; 2] {
         let corners = [(s0, t0), (s1, t0), (s1, t1), (s0, t1)].map(|(s, t)| DVec3::new(s, t, 0.0));
         let on_face = |at: DVec3| self.origin + at.x.max(at.y) * self.e + at.y.max(2.0 * at.y - at.x) * self.f;
@@ -107,8 +106,7 @@ fn corners(Window { s: [s0, s1], t: [t0, t1] }: Window) -> [[f64; 2]; 6] {
 }
 
 impl WindowMoments {
-    /// M = s + D and N = t + D with D = max(t - s, 0), whose integrals over a rectangle are combinations of powers at
-    /// its corners.
+    /// M = s + D and N = t + D with D = max(t - s, 0), whose integrals combine powers at the rectangle's corners.
     fn of(Window { s: [s0, s1], t: [t0, t1] }: Window) -> Self {
         // The window is shifted so that s runs from 0 to width, t from low to high.
         let (width, low, high) = (s1 - s0, t0 - s0, t1 - s0);

@@ -78,8 +78,7 @@ impl LinkTextures {
         texels * count as u64 * format.format().bytes() as u64
     }
 
-    /// Combines textures from `first` on as tiles of one texture, row by row, `tiles` along an edge; tiles beyond
-    /// `count` textures are 0.
+    /// Combines textures from `first` on as tiles of one texture, row by row; tiles beyond `count` are 0.
     pub(super) fn tiled(&self, first: usize, count: usize, tiles: usize, map: MapTexture) -> Texels {
         if tiles == 1 {
             return self.on_card(first, map);

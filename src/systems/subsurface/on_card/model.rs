@@ -13,8 +13,7 @@ pub struct CardModel {
     frame: UnitFrame,
     pub(super) positions: Texels,
     pub(super) normals: Texels,
-    /// Faces: their rectangles in the atlas for pass 1 and their triangles on the surface for pass 3, each with the area
-    /// of its texels divided by the mean texel area.
+    /// Faces, each with the area of its texels divided by the mean texel area.
     pub(super) faces: Vec<(DrawnFace, f32)>,
 }
 

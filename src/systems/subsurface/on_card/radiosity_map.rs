@@ -110,8 +110,7 @@ impl LightPass {
         Ok(())
     }
 
-    /// eta^2 - 1, eta^2, eta, and the smallest squared distance to a light. An eta of 1 is slightly raised, because the
-    /// program would divide by 0 for light along the surface.
+    /// eta^2 - 1 (above 0, by which the program divides), eta^2, eta, and the smallest squared distance to a light.
     fn refraction(&self) -> [f32; 4] {
         let square = self.eta * self.eta;
         [((square - 1.0) as f32).max(1e-12), square as f32, self.eta as f32, LEAST_SQUARE]

@@ -34,8 +34,7 @@ pub struct PassEvent {
     pub event: Event,
 }
 
-/// The modelled time of a pass: draws, generated levels, clears and changes of state in sequence; uploads and
-/// read-backs are not counted.
+/// The modelled time of a pass, in sequence, without uploads and read-backs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassTime {
     /// The pass's time.
