@@ -105,7 +105,7 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Subsurf
     let mut last: Option<(GatherWay, Links)> = None;
     for (at, &way) in parameters.ways.iter().enumerate() {
         let links = match last.take() {
-            Some((other, links)) if other.has_links_of(&way) => links,
+            Some((other, links)) if (other.choice, other.rgb) == (way.choice, way.rgb) => links,
             _ => way::links(&scene, way, progress)?,
         };
         rows.push(way::run(&scene, way, (&links, at == 0), progress)?);

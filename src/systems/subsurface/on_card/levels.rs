@@ -87,10 +87,10 @@ impl LeveledMap {
         }
     }
 
-    /// The texture that pass 2 reads: one level for fixed links, all levels for adaptive links.
-    pub(super) fn read(&self, links: FixedLevel) -> ReadTexture {
+    /// The texture that pass 2 reads: one level for fixed links; if `None`, all levels for adaptive links.
+    pub(super) fn read(&self, level: Option<u32>) -> ReadTexture {
         let state = SamplerState::NEAREST_CLAMP;
-        match (&self.float, links) {
+        match (&self.float, level) {
             (None, Some(level)) => (self.map, SamplerState { max_mip_level: level as u8, ..state }),
             (None, None) => {
                 let lod_bias = (-0.5_f32).to_bits();
@@ -109,6 +109,3 @@ impl LeveledMap {
         (0..=self.side.ilog2()).map(|level| Ok(Texels::read_back(machine, self.level(level))?)).collect()
     }
 }
-
-/// The level of fixed links; `None` for adaptive links.
-pub(super) type FixedLevel = Option<u32>;
