@@ -16,9 +16,9 @@ pub(super) struct CardArgs {
     #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
     switch: Vec<(String, String)>,
 
-    /// Executor; all executors give the same bits
-    #[arg(long, value_enum, default_value = "batch")]
-    executor: DeviceExecutor,
+    /// Executor; all executors give the same bits [default: batch]
+    #[arg(long, value_enum)]
+    executor: Option<DeviceExecutor>,
 }
 
 impl CardArgs {
@@ -32,11 +32,15 @@ impl CardArgs {
         [("--device", self.device.is_some()), ("--switch", !self.switch.is_empty())]
     }
 
+    pub(super) fn names_executor(&self) -> bool {
+        self.executor.is_some()
+    }
+
     pub(super) fn switches(&self) -> Vec<(String, String)> {
         self.switch.clone()
     }
 
     pub(super) fn executor(&self) -> Result<Executor, Problem> {
-        self.executor.open()
+        self.executor.unwrap_or(DeviceExecutor::Batch).open()
     }
 }

@@ -24,7 +24,8 @@ pub(super) fn refuse<'a>(
 }
 
 /// Rejects an option that is given twice with the same value, or with the same name if its values are `NAME=VALUE`.
-/// Lights add up, and A and B of a product may have the same type. Fails with [`Problem::Usage`].
+/// Numbers are compared by value: `sor:1.1` is `sor:1.10`. Lights add up, and A and B of a product may have the same
+/// type. Fails with [`Problem::Usage`].
 pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
     let is_list = |arg: &&Arg| matches!(arg.get_action(), ArgAction::Append);
@@ -33,8 +34,8 @@ pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result
         let values = matches.get_raw(arg.get_id().as_str()).into_iter().flatten().map(|value| value.to_string_lossy());
         let is_named = arg.get_value_names().into_iter().flatten().any(|name| name.contains('='));
         let end = |value: &str| value.find('=').filter(|_| is_named).unwrap_or(value.len());
-        let names = values.map(|value| value[..end(&value)].to_owned());
-        if let Some(name) = names.into_iter().find(|name| !known.insert(name.clone())) {
+        let mut names = values.map(|value| value[..end(&value)].to_owned());
+        if let Some(name) = names.find(|name| !known.insert(by_value(name))) {
             let what = format!(
                 "expected different values of `--{}`, found `{name}` twice",
                 arg.get_long().unwrap_or_default()
@@ -73,6 +74,12 @@ pub(super) fn refuse_places(program: &Command, matches: &ArgMatches) -> Result<(
         }
     }
     Ok(())
+}
+
+/// A value in which every number between colons has its shortest form.
+fn by_value(text: &str) -> String {
+    let parts = text.split(':').map(|part| part.parse::<f64>().map_or_else(|_| part.to_owned(), |x| x.to_string()));
+    parts.collect::<Vec<_>>().join(":")
 }
 
 /// Rejects a word that is neither the name of a `what` nor a file; a path without a dot or a folder counts as a name.

@@ -51,8 +51,7 @@ impl Census {
     }
 }
 
-/// Counts the faces that coincide with an earlier one. The faces of an edge are sorted by their angle around it, and
-/// each is compared with the next.
+/// Counts the faces that coincide with an earlier one, comparing each face of an edge with the next by angle.
 fn duplicate_faces(welded: &Mesh, adjacency: &Adjacency) -> usize {
     let place = |vertex: u32| wide(welded.positions()[vertex as usize]);
     let with_area: Vec<bool> = welded.iter_corners().map(|corners| has_certain_area(&corners)).collect();

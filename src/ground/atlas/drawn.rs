@@ -7,49 +7,26 @@ use glam::DVec3;
 
 /// Vertex of a drawn triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DrawnVertex {
+pub struct DrawnVertex<P> {
     /// Position on the surface, in the mesh's units.
     pub position: DVec3,
-    /// Normal: of length 1 at corners of the face. At the middle of an edge it is the mean of the ends' normals, so
-    /// that interpolation over the triangle equals interpolation over the face.
+    /// Normal: of length 1 at corners of the face, or zero where none is known. At the middle of an edge it is the mean
+    /// of the ends' normals, so that interpolation over the triangle equals interpolation over the face.
     pub normal: DVec3,
-    /// Position in the atlas, in texels: a corner of the face's rectangle.
-    pub at: [u32; 2],
+    /// Place in the atlas, in texels: a corner of the face's rectangle, or two pairs of coordinates.
+    pub at: P,
 }
 
-/// Face as two triangles.
-///
-/// Drawn at [`DrawnVertex::at`], they cover the center of each texel of the face exactly once. Drawn at their
-/// positions, they read the atlas at the interpolated coordinates, clamped to the bounds. [`WholeFace`] draws the
-/// surface without a vertex in the middle of an edge.
+/// Face as two triangles or as one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawnFace {
-    /// The corners a, b, m and a, m, c, where m is the middle of the edge from b to c. On the surface they have the
-    /// face's orientation; in the atlas the orientation differs from face to face.
-    pub triangles: [[DrawnVertex; 3]; 2],
-    /// Smallest and largest texel coordinates of reads, `[x, y, x, y]`: half a texel inside the rectangle's border, so
-    /// that a bilinear read stays on the face.
-    pub bounds: [f64; 4],
-}
-
-/// Vertex of a face that is drawn as one triangle with texels from the atlas.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WholeVertex {
-    /// Position on the surface, in the mesh's units.
-    pub position: DVec3,
-    /// Unit normal, or zero where none is known.
-    pub normal: DVec3,
-    /// Two pairs of texel coordinates, to be interpolated. Their componentwise minimum (one more instruction) is the
-    /// position in the atlas in both halves of the face.
-    pub at: [[u32; 2]; 2],
-}
-
-/// Face as one triangle, drawn at its surface positions. Two halves would have a vertex in the middle of an edge, a
-/// T-junction that causes cracks.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WholeFace {
-    /// The corners, in the order of the face.
-    pub vertices: [WholeVertex; 3],
-    /// Bounds of reads, as in [`DrawnFace`].
+    /// The corners a, b, m and a, m, c, where m is the middle of the edge from b to c. Drawn at their places, they cover
+    /// the center of each texel of the face exactly once. On the surface they have the face's orientation; in the atlas
+    /// the orientation differs from face to face.
+    pub triangles: [[DrawnVertex<[u32; 2]>; 3]; 2],
+    /// The corners in the order of the face, to be drawn at their positions: m would be a T-junction, which causes
+    /// cracks. The componentwise minimum of the two interpolated pairs is the place in the atlas.
+    pub whole: [DrawnVertex<[[u32; 2]; 2]>; 3],
+    /// Texel coordinates to clamp reads to, `[x, y, x, y]`, as in [`super::FacePlace::bounds`].
     pub bounds: [f64; 4],
 }

@@ -29,8 +29,7 @@ pub(super) struct FaceGraph {
 }
 
 impl FaceGraph {
-    /// Builds the graph of all faces of a mesh. If an edge has more than two faces, each face is linked only to the
-    /// next.
+    /// Builds the graph of all faces of a mesh. The faces of an edge are linked in a chain.
     pub(super) fn of_mesh(surface: &AtlasSurface, welded: &Mesh, adjacency: &Adjacency) -> Self {
         let unit_per_length = units_per_length(welded);
         let mut pairs: Vec<(u32, FaceLink)> = Vec::with_capacity(surface.len() * 3);
@@ -90,8 +89,7 @@ impl FaceGraph {
         found
     }
 
-    /// Connected parts of the faces on each side: each face's part, numbered from 0 in the order of the parts' first
-    /// faces, and the number of parts.
+    /// Connected parts of the faces on each side: the part of each face, and the number of parts.
     pub(super) fn parts(&self, side: impl Fn(u32) -> bool) -> (Vec<u32>, u32) {
         let mut part = vec![u32::MAX; self.len()];
         let (mut count, mut open) = (0, Vec::new());

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::census::Census;
-use super::drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
+use super::drawn::{DrawnFace, DrawnVertex};
 use super::graph::FaceGraph;
 use super::levels::levels;
 use super::measures::FaceMeasures;
@@ -52,9 +52,8 @@ impl Atlas {
     /// # }
     /// ```
     ///
-    /// # Errors
-    /// [`InputError`] if the side is not a power of two or above [`MAX_SIDE`], if there are more faces than texels, and
-    /// if the mesh has no face with an area.
+    /// Fails if the side is not a power of two or above [`MAX_SIDE`], if there are more faces than texels, and if the
+    /// mesh has no face with an area.
     pub fn new(mesh: &Mesh, side: u32) -> Result<Self, InputError> {
         check(mesh.len(), side)?;
         let welded = mesh.welded();
@@ -179,32 +178,23 @@ impl Atlas {
         [f64::from(texel % self.side), f64::from(texel / self.side)]
     }
 
-    /// Face as two triangles, for drawing it into the atlas or with texels from the atlas.
+    /// Face for drawing it into the atlas or with texels from the atlas.
     pub fn drawn(&self, face: u32) -> DrawnFace {
-        let place = self.places[face as usize];
-        let [a, b, c] = place.in_turn(self.surface.corners(face));
-        let [na, nb, nc] = place.in_turn(self.surface.normals(face));
-        let [x, y, far_x, far_y] = [place.x, place.y, place.x + place.width, place.y + place.height];
-        let [beside, below] = [[far_x, y], [x, far_y]];
-        let [at_b, at_c] = if place.transposed { [below, beside] } else { [beside, below] };
-        let vertex = |position, normal, at| DrawnVertex { position, normal, at };
-        let [a, b, c] = [vertex(a, na, [x, y]), vertex(b, nb, at_b), vertex(c, nc, at_c)];
-        let m = vertex((b.position + c.position) / 2.0, (nb + nc) / 2.0, [far_x, far_y]);
-        DrawnFace { triangles: [[a, b, m], [a, m, c]], bounds: place.bounds() }
-    }
-
-    /// Face as one triangle, for drawing it with texels from the atlas.
-    pub fn drawn_whole(&self, face: u32) -> WholeFace {
         let place = self.places[face as usize];
         let [positions, normals] = [self.surface.corners(face), self.surface.normals(face)];
         let [x, y, width, height] = [place.x, place.y, place.width, place.height];
+        let turned =
+            |[along_x, along_y]: [[u32; 2]; 2]| if place.transposed { [along_y, along_x] } else { [along_x, along_y] };
+        let vertex = |position, normal, at| DrawnVertex { position, normal, at };
         let far = [x + width, y + height];
-        let [along_x, along_y] = [[x + 2 * width, y], [x, y + 2 * height]];
-        let [beside, below] = if place.transposed { [along_y, along_x] } else { [along_x, along_y] };
+        let [at_b, at_c] = turned([[far[0], y], [x, far[1]]]);
+        let ([a, b, c], [na, nb, nc]) = (place.in_turn(positions), place.in_turn(normals));
+        let [a, b, c] = [vertex(a, na, [x, y]), vertex(b, nb, at_b), vertex(c, nc, at_c)];
+        let m = vertex((b.position + c.position) / 2.0, (nb + nc) / 2.0, far);
+        let [beside, below] = turned([[x + 2 * width, y], [x, y + 2 * height]]);
         let at = place.by_index([[[x, y], [x, y]], [far, beside], [far, below]]);
-        let vertex =
-            |corner: usize| WholeVertex { position: positions[corner], normal: normals[corner], at: at[corner] };
-        WholeFace { vertices: [0, 1, 2].map(vertex), bounds: place.bounds() }
+        let whole = [0, 1, 2].map(|k| DrawnVertex { position: positions[k], normal: normals[k], at: at[k] });
+        DrawnFace { triangles: [[a, b, m], [a, m, c]], whole, bounds: place.bounds() }
     }
 }
 

@@ -20,7 +20,7 @@ pub mod texel;
 pub mod tree;
 
 pub use census::Census;
-pub use drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
+pub use drawn::{DrawnFace, DrawnVertex};
 pub use meshed::{Atlas, MAX_SIDE, require_side};
 pub use part::TexelPart;
 pub use place::FacePlace;

@@ -1,12 +1,6 @@
 //! A face's rectangle of texels, and the map between the rectangle and the face.
 //!
-//! The corners of the rectangle, in turn, map to the corners a and b of the face, the middle m of the edge from b to c,
-//! and c. The triangles (a, b, m) and (a, m, c) have equal areas in the rectangle and in the face, so the map is affine
-//! in each triangle, continuous across the diagonal, and preserves ratios of areas: every texel of a face has the same
-//! area.
-//!
-//! With (u, v) from 0 to 1 along the sides from a to b and from a to c, and s the smaller of the two, the barycentric
-//! weights are 1 - u - v + s for a, u - s/2 for b and v - s/2 for c.
+//! docs/atlas.md defines the map: affine in each half, continuous across the diagonal, and preserving ratios of areas.
 
 use glam::DVec3;
 
@@ -28,8 +22,7 @@ pub struct FacePlace {
 }
 
 impl FacePlace {
-    /// Chooses, among the six placements of a face in a rectangle, the one with the squarest texels. Ties are broken by
-    /// corner, then in favour of the untransposed placement.
+    /// Chooses the placement of a face in a rectangle with the squarest texels; on ties, the first of the six.
     pub(super) fn squarest([x, y, width, height]: [u32; 4], corners: [DVec3; 3]) -> Self {
         let place = |first, transposed| Self { x, y, width, height, first, transposed };
         let places = (0..3).flat_map(|first| [false, true].map(|transposed| place(first, transposed)));
@@ -87,8 +80,7 @@ impl FacePlace {
         self.weights_of(u, v, u.min(v))
     }
 
-    /// Texel coordinates of the point of the face with these barycentric weights, by corner index. The weights are
-    /// clamped to the face.
+    /// Texel coordinates of the point of the face with these barycentric weights, by corner index, which are clamped.
     pub fn coordinates(&self, weights: [f64; 3]) -> [f64; 2] {
         let [a, b, c] = self.in_turn(weights).map(|weight| if weight >= 0.0 { weight.min(1.0) } else { 0.0 });
         let [u, v] = if b >= c { [1.0 - a, 2.0 * c] } else { [2.0 * b, 1.0 - a] }.map(|part: f64| part.min(1.0));

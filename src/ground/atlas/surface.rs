@@ -76,8 +76,7 @@ pub(super) fn combined([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }
 
-/// Computes the normals at the corners of each face: the mesh's normals, else the mean normal of the faces around each
-/// position, else, if that mean is zero, the face's own normal.
+/// Normals at the corners of each face: the mesh's, else the mean of the faces at each position, else the face's own.
 fn corner_normals(mesh: &Mesh, welded: &Mesh) -> Vec<[DVec3; 3]> {
     let computed = welded.vertex_normals();
     let given = mesh.normals();

@@ -12,12 +12,10 @@ use super::measures::{FaceMeasures, SplitLimits};
 use crate::elementary::on_circle;
 use crate::geom::vector::{least_axis, unit};
 
-/// Maximum difference of two halves, as a fraction of the demand, that is accepted to avoid dividing a part of the
-/// mesh.
+/// Difference of two halves, as a fraction of the demand, that is accepted to keep a part of the mesh whole.
 const WHOLE_PARTS: f64 = 1.0 / 32.0;
 
-/// Maximum difference, as a fraction of the demand, that is accepted to make both halves connected before other seeds
-/// are tried.
+/// Difference, as a fraction of the demand, that is accepted for connected halves before other seeds are tried.
 const MENDED: f64 = 1.0 / 16.0;
 
 /// Number of flat cuts that are tried.
@@ -84,8 +82,7 @@ fn plane(normal: DVec3) -> [DVec3; 2] {
     [right, normal.cross(right)]
 }
 
-/// Splits a cluster of several parts, in their order along the longest axis: between two parts, or through the middle
-/// part.
+/// Splits a cluster of several parts, along the longest axis: between two parts, or through the middle part.
 pub(super) fn cut_parts(
     graph: &FaceGraph,
     measures: &FaceMeasures,
@@ -168,8 +165,7 @@ fn demand(graph: &FaceGraph, measures: &FaceMeasures, faces: &[u32]) -> f64 {
     faces.iter().map(|&face| measures.demands[graph.faces()[face as usize] as usize]).sum()
 }
 
-/// Finds the best split of an order: the number of faces of the first half, within the limits, that makes the halves'
-/// demands most equal.
+/// The number of faces of the first half, within the limits, that makes the halves' demands most equal.
 fn best_cut(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits, order: &[u32]) -> usize {
     let half = demand(graph, measures, order) / 2.0;
     let mut best = (f64::INFINITY, *limits.start());

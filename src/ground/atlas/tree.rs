@@ -57,8 +57,7 @@ impl ClusterTree {
         self.order.get(node.first as usize..).and_then(|from| from.get(..node.faces as usize)).unwrap_or_default()
     }
 
-    /// Children of a node, as indices into [`ClusterTree::nodes`]; `None` for a leaf and for a node that does not
-    /// exist.
+    /// Children of a node, as indices into [`ClusterTree::nodes`]; `None` for a leaf and beyond the last node.
     pub fn children(&self, node: usize) -> Option<[usize; 2]> {
         let first = node + 1;
         (self.nodes.get(node)?.faces > 1).then(|| [first, first + 2 * self.nodes[first].faces as usize - 1])

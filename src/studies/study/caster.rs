@@ -92,11 +92,8 @@ impl CasterOptions {
         self.caster == Some(true)
     }
 
-    /// Returns the caster; `executor` runs the engine's programs.
-    ///
-    /// # Errors
-    /// If engine options are given without the engine, there are several formats, a device or format is unknown, or a
-    /// number is out of range.
+    /// Returns the caster; `executor` runs the engine's programs. Fails as [`Self::choose_each`] does, and for several
+    /// formats.
     pub fn choose(&self, executor: Executor) -> Result<CasterChoice, StudyError> {
         match &mut self.choose_each(executor)?[..] {
             [one] => Ok(std::mem::take(one)),
@@ -104,10 +101,8 @@ impl CasterOptions {
         }
     }
 
-    /// Returns a caster for each `--caster-format`.
-    ///
-    /// # Errors
-    /// As for [`Self::choose`], but several formats are allowed.
+    /// Returns a caster for each `--caster-format`. Fails if engine options are given without the engine, a device or
+    /// format is unknown, or a number is out of range.
     pub fn choose_each(&self, executor: Executor) -> Result<Vec<CasterChoice>, StudyError> {
         let Self { caster_device, caster_format, octree, pass_triangles, pass_rays, readback, .. } = self;
         if !self.is_engine() {
@@ -200,10 +195,8 @@ impl CasterChoice {
         self.profile().map_or(Format::FP32, |profile| profile.rules.format)
     }
 
-    /// Builds the structures over a mesh: the octree, and for the engine its GPU cells and the card.
-    ///
-    /// # Errors
-    /// If the card cannot run an intersection program.
+    /// Builds the structures over a mesh: the octree, and for the engine its GPU cells and the card. Fails if the card
+    /// cannot run an intersection program.
     pub fn open<'a>(&self, mesh: &'a Mesh, sides: Sides) -> Result<OpenCaster<'a>, EngineError> {
         Ok(OpenCaster(match self {
             Self::Host => OpenKind::Host(Box::new(HostTracer::new(mesh, sides))),
@@ -220,9 +213,6 @@ impl CasterChoice {
     }
 
     /// As [`Self::open`], but compares the engine's answers with exact arithmetic: see [`CastRecord::differing`].
-    ///
-    /// # Errors
-    /// As [`Self::open`].
     pub fn open_judged<'a>(&self, mesh: &'a Mesh, sides: Sides) -> Result<OpenCaster<'a>, EngineError> {
         let mut open = self.open(mesh, sides)?;
         if let OpenKind::Engine(engine) = &mut open.0 {

@@ -1,17 +1,10 @@
 //! First-order effect of an accumulator with few bits on a solution: why half precision makes a room too dark, and more
 //! patches make it darker still.
 //!
-//! An accumulator S of p mantissa bits is a multiple of `q = 2^(floor(log2 |S|) - p)`. A term t added to S therefore
-//! counts as t rounded to a multiple of q: to the nearest, or with truncation to the one below. A row of the iteration
-//! adds N terms, each about 1/N of the radiosity, to a sum as large as the radiosity, so t / q is about 2^p / N:
-//!
-//! - with truncation, every term loses q / 2 on average, and a row about `N 2^-(p+1)` of its radiosity: linear in N;
-//! - with rounding to nearest, terms below q / 2 are lost and the others lose nothing on average: the loss is the
-//!   fraction of light in terms below q / 2, almost none for few patches and almost all for many.
-//!
-//! The loss d of an iteration is the error of the sum of equation 4, so the error of the solution is `M^-1 d`.
-//! [`predicted`] uses sums and terms of the exact solution. The card's sums are smaller where the loss is large, so the
-//! prediction is of first order in the loss.
+//! A term t added to a sum S of p mantissa bits counts as t rounded to a multiple of `2^(floor(log2 |S|) - p)`: see "Half
+//! floats darken the room" in docs/studies/radiosity.md. The loss d of an iteration is the error of the sum of equation
+//! 4, so the error of the solution is `M^-1 d`. [`predicted`] uses sums and terms of the exact solution. The card's sums
+//! are smaller where the loss is large, so the prediction is of first order in the loss.
 
 use refsim::num::{Format, FormatKind, Rounding, power_of_two};
 
@@ -97,8 +90,7 @@ impl Accumulator {
     }
 }
 
-/// The predicted error of each radiosity, to first order, given the exact solution. Fails with [`InputError`]. Panics
-/// if there is not one radiosity per patch.
+/// The predicted error of each radiosity, to first order. Panics if `exact` has not one radiosity per patch.
 pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Result<Vec<[f64; 3]>, InputError> {
     assert_eq!(exact.len(), system.factors().len(), "one radiosity per patch");
     let mut off = vec![[0.0; 3]; exact.len()];

@@ -15,18 +15,23 @@ use crate::error::InputError;
 use crate::linalg::Matrix;
 
 /// A system in the layout of the card's textures.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardSystem {
-    packing: Packing,
-    size: usize,
-    block: usize,
-    matrix: Texels,
-    emittance: Texels,
+    /// The layout of elements in texels.
+    pub packing: Packing,
+    /// Number of patches.
+    pub size: usize,
+    /// Texels per block.
+    pub block: usize,
+    /// Texture of A.
+    pub matrix: Texels,
+    /// Texture of e.
+    pub emittance: Texels,
 }
 
 impl CardSystem {
-    /// Lays out all three channels of a system, one texel per element, in blocks of `block` texels per pass (at least
-    /// 1). Textures have at most `limit` texels per side.
+    /// Lays out all three channels, one texel per element, in blocks of `block` texels, with sides of at most `limit`.
     pub fn rgb(system: &System, block: usize, limit: usize) -> Result<Self, InputError> {
         let size = system.factors().len();
         let mut right: Vec<[f64; 3]> = system.emittance().to_vec();
@@ -57,45 +62,9 @@ impl CardSystem {
         let emittance = packing::filled("a vector", [width, 1], limit, |_, _| [0.0; 4])?;
         Ok(Self { packing, size, block: block.max(1), matrix, emittance })
     }
-
-    /// The layout of elements in texels.
-    pub fn packing(&self) -> Packing {
-        self.packing
-    }
-
-    /// Number of patches.
-    pub fn len(&self) -> usize {
-        self.size
-    }
-
-    /// Returns `true` if there are no patches.
-    pub fn is_empty(&self) -> bool {
-        self.size == 0
-    }
-
-    /// Texels per block.
-    pub fn block(&self) -> usize {
-        self.block
-    }
-
-    /// Texture of A.
-    pub fn matrix(&self) -> &Texels {
-        &self.matrix
-    }
-
-    /// Texture of e.
-    pub fn emittance(&self) -> &Texels {
-        &self.emittance
-    }
-
-    /// Passes per iteration: the matrix's width divided by the block's.
-    pub fn passes(&self) -> usize {
-        self.matrix.width.div_ceil(self.block)
-    }
 }
 
-/// The right-hand sides divided by the diagonal of the system's matrix: one texture of three channels, or one per
-/// channel.
+/// The right-hand sides divided by the diagonal: one texture of three channels, or one per channel.
 pub fn emittances(system: &System, packing: Packing, limit: usize) -> Result<Vec<Texels>, InputError> {
     let factors = system.factors().matrix();
     let divided = |(i, e): (usize, &[f64; 3])| {

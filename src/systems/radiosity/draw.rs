@@ -73,8 +73,7 @@ impl Projection {
         outside.contains(&true)
     }
 
-    /// Returns `true` if the eye sees the front of a patch, `false` if it sees the back, which is black, and `None` if
-    /// it sees the patch edge-on.
+    /// `true` if the eye sees the front of a patch, `false` for the back, which is black, `None` if it is edge-on.
     pub(super) fn sees_front(&self, patch: &Patch) -> Option<bool> {
         let (height, least) = (patch.height(self.eye), EDGE_ON * patch.radius());
         (height.abs() > least).then_some(height > 0.0)

@@ -17,10 +17,9 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::form_factor::clipped;
 use super::patch::Patch;
 use crate::geom::exact::{Sides, Tracer};
-use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::vector::{clipped, narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::offset::scene_clearance;
 
@@ -112,8 +111,7 @@ fn inside(cell: &[DVec3], normal: DVec3, [start, along]: [DVec3; 2], length: f64
     to - from
 }
 
-/// Returns `true` if the first hit of every test ray of a cell is the back of a surface. For most cells the first ray
-/// decides.
+/// Returns `true` if the first hit of every test ray is the back of a surface. Mostly the first ray decides.
 fn is_covered(cell: &[DVec3], patch: &Patch, lift: f64, mesh: &Mesh, tracer: &Tracer<'_>) -> bool {
     let normal = patch.normal();
     let along = unit(patch.center() - patch.corners()[0]).unwrap_or(normal);

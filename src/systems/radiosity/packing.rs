@@ -80,8 +80,7 @@ pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, InputErro
     })
 }
 
-/// Four columns per texel. The number of rows is rounded up to a multiple of four, like the length of a vector with
-/// four elements per texel.
+/// Four columns per texel. The number of rows is rounded up to a multiple of four, like the length of a vector.
 pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, InputError> {
     filled("a matrix", Packing::Luminance.matrix_texels(matrix.row_count()), limit, |x, y| {
         [0, 1, 2, 3].map(|c| element(matrix, y, 4 * x + c))

@@ -84,8 +84,7 @@ impl System {
         self.emittance.iter().map(|e| e[channel]).collect()
     }
 
-    /// Computes the matrix of equation 2 in a channel: the identity minus reflectance times form factor. Panics for a
-    /// channel above 2.
+    /// The matrix of equation 2 in a channel, the identity minus reflectance times form factor. Panics above 2.
     pub fn matrix(&self, channel: usize) -> Matrix {
         let mut matrix = self.factors.matrix().clone();
         for (i, rho) in self.reflectance.iter().enumerate() {

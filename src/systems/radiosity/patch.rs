@@ -3,8 +3,7 @@
 use crate::geom::vector::unit;
 use glam::DVec3;
 
-/// A flat convex patch of constant radiosity. Its front is the side from which the corners run counter-clockwise; its
-/// back is black.
+/// A flat convex patch of constant radiosity. Its corners run counter-clockwise from its front; its back is black.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     corners: [DVec3; 4],

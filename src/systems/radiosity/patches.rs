@@ -93,8 +93,7 @@ impl Patches {
         [self.open.len() - altogether, altogether]
     }
 
-    /// A parametrisation of the open parts of a patch over the unit square. The parts divide the square's first side in
-    /// proportion to their areas.
+    /// A point of the open parts, which divide the unit square's first side in proportion to their areas.
     pub(super) fn open_point(&self, patch: usize, [u, v]: [f64; 2]) -> PatchPoint {
         let parts = self.open_parts(patch);
         if let [one] = parts {
@@ -113,8 +112,7 @@ impl Patches {
         PatchPoint { density: point.density * (area / part.area()), ..point }
     }
 
-    /// Area of each patch in form factors: the area of its open parts, because only they exchange light. A wholly
-    /// covered patch exchanges no light, and gets its whole area.
+    /// Area of each patch in form factors: of its open parts; a wholly covered patch gets its whole area.
     pub fn areas(&self) -> Vec<f64> {
         let area = |i| if self.open_parts(i).is_empty() { self.list[i].area() } else { self.open_area(i) };
         (0..self.list.len()).map(area).collect()
@@ -141,6 +139,8 @@ fn steps(faces: &[Face], subdivision: Subdivision) -> Result<(Vec<[u32; 2]>, usi
         Subdivision::AtMost(most) => steps_for_at_most(faces, most),
     };
     let found = steps.iter().map(|&[u, v]| u as usize * v as usize).sum();
+    ensure!(faces.len() <= MAX_PATCHES, "radiosity::patches" =>
+        "expected at most {MAX_PATCHES} faces, each at least one patch, found {}", faces.len());
     ensure!(found <= MAX_PATCHES, "radiosity::patches" =>
         "expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer");
     Ok((steps, found))

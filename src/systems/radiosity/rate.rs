@@ -36,8 +36,7 @@ pub struct Timing {
     pub packing: Packing,
     /// Number format: single or half floats.
     pub storage: Storage,
-    /// `true` to simulate the texture cache texel by texel, which takes about a thousand times as long; otherwise the
-    /// minimum traffic is assumed.
+    /// `true` to simulate the texture cache, a thousand times slower; otherwise the minimum traffic is assumed.
     pub cache: bool,
 }
 
@@ -48,8 +47,7 @@ pub struct TimedIteration {
     pub passes: usize,
     /// Number of draws: a pass with luminance packing needs four draws, one per channel of its target.
     pub draws: usize,
-    /// Time of the whole iteration: draws and changes of state in sequence, because each draw reads the previous draw's
-    /// results.
+    /// Time of the whole iteration: draws and changes of state in sequence, because draws depend on each other.
     pub time: Picoseconds,
     /// Clocks of the texture units, which work concurrently with the other units.
     pub textures: u64,

@@ -7,8 +7,7 @@ use crate::geom::vector::wide;
 use crate::scene::Scene;
 use glam::DVec3;
 
-/// Maximum distance of the fourth corner of a face from its plane, relative to the longest diagonal: the precision of
-/// f32 corners.
+/// Distance of a face's fourth corner from its plane, relative to the longest diagonal: the precision of f32.
 const FLAT: f64 = 1e-6;
 
 /// A flat convex part of the scene: a triangle, or two triangles that form a quadrilateral.
@@ -21,8 +20,7 @@ pub(super) struct Face {
     material: u32,
 }
 
-/// Returns the faces of a scene, and the face of each triangle; [`u32::MAX`] for a triangle without area, which has no
-/// face.
+/// The faces of a scene, and the face of each triangle; [`u32::MAX`] for a triangle without area.
 pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), InputError> {
     let has_area: Vec<bool> = scene.mesh().iter_corners().map(|corners| !is_degenerate(&corners)).collect();
     let triangles: Vec<[DVec3; 3]> = scene.mesh().iter_corners().map(|t| t.map(wide)).collect();

@@ -55,8 +55,7 @@ impl Shade for Distributed<'_> {
     }
 }
 
-/// Direct light: the diffuse part by one point of the emitters; both parts by the point lights, which a ray from a lobe
-/// cannot hit.
+/// Direct light: the diffuse part by one point of the emitters, both parts by the point lights, which no ray can hit.
 pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
     let has_diffuse = lobes.albedo.max_element() > 0.0;
     let area = has_diffuse.then(|| lights.area(surfel, flight.rng, flight.depth)).flatten();

@@ -43,9 +43,7 @@ pub struct EnvironmentCard<'a> {
 }
 
 /// Renders as [`whitted::render`] with one sample per pixel and no reflected rays, and draws the mirrors on a card.
-///
-/// # Errors
-/// [`InputError`] as for [`whitted::render`], for more than one sample, and if the card rejects a draw.
+/// Fails as [`whitted::render`] does, for more than one sample, and if the card rejects a draw.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -100,10 +98,7 @@ fn map(scene: &Scene, mirrors: &[u32], place: DVec3, settings: &Settings) -> Res
 }
 
 /// Texels of a cube map of what is seen from a place, face by face as in [`CUBE_FACES`]. `seen` returns the pixels of a
-/// camera, row by row.
-///
-/// # Errors
-/// [`InputError`] of `seen`, and for a place that is not finite.
+/// camera, row by row. Fails as `seen` does, and for a place that is not finite.
 pub fn seen_around(
     place: DVec3,
     side: u32,

@@ -1,5 +1,7 @@
 //! Eye rays alone: visible surfaces, lit by a light at the eye.
 
+use glam::DVec3;
+
 use super::Settings;
 use super::counting::{CountingCaster, WatchProgress};
 use super::film::{RenderedPicture, expose};
@@ -29,13 +31,17 @@ struct Eye;
 
 impl Shade for Eye {
     fn shade(&self, _: &PathRay, surfel: &Surfel<'_>) -> Scatter {
-        let color = match surfel.material.surface {
-            Surface::Diffuse { albedo } => wide(albedo),
-            Surface::Glossy { albedo, specular, .. } => wide(albedo) + wide(specular),
-            Surface::Mirror { reflectance } => wide(reflectance),
-            Surface::Glass { transmittance, .. } => wide(transmittance),
-        };
         let facing = surfel.shading.dot(surfel.view).max(0.0) * if surfel.front { 1.0 } else { 0.5 };
-        Scatter::of(facing * color + Lights::emitted(surfel))
+        Scatter::of(facing * albedo(&surfel.material.surface) + Lights::emitted(surfel))
+    }
+}
+
+/// Total reflectance or transmittance.
+pub(super) fn albedo(surface: &Surface) -> DVec3 {
+    match *surface {
+        Surface::Diffuse { albedo } => wide(albedo),
+        Surface::Glossy { albedo, specular, .. } => wide(albedo) + wide(specular),
+        Surface::Mirror { reflectance } => wide(reflectance),
+        Surface::Glass { transmittance, .. } => wide(transmittance),
     }
 }

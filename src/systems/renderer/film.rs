@@ -23,8 +23,7 @@ pub struct RenderedPicture {
     pub color: Vec<[f64; 3]>,
     /// Estimated variance of the mean: the variance of the samples divided by their number; 0 for one sample.
     pub variance: Vec<[f64; 3]>,
-    /// First hit of the ray through the centre of the pixel. Its t is in multiples of the camera ray's direction, so it
-    /// is the depth along the view.
+    /// First hit of the ray through the centre of the pixel; its t is the depth along the view.
     pub first: Vec<Option<Hit>>,
     /// Samples that were not finite and count as black: 0 for scenes with reasonable parameters.
     pub not_finite: u64,

@@ -1,11 +1,12 @@
 //! Picture layers, with channel names that EXR viewers group.
 
+use super::eye::albedo;
 use super::film::RenderedPicture;
 use super::surfel::Surfel;
 use crate::error::InputError;
 use crate::geom::vector::narrow;
 use crate::picture::{ChannelUnit, Picture, Samples};
-use crate::scene::{Camera, Color, Material, Scene, Surface};
+use crate::scene::{Camera, Color, Scene};
 use crate::tracer::offset::SINGLE;
 
 /// Converts to a picture with color in single precision (`R`, `G`, `B`), and for the first hit through the centre of
@@ -16,7 +17,7 @@ pub fn layers(picture: &RenderedPicture, scene: &Scene, camera: &Camera) -> Resu
     let color: Vec<[f32; 3]> = picture.color.iter().map(|color| color.map(|c| c as f32)).collect();
     let surface = |(ray, hit)| Surfel::new(scene, SINGLE, &ray, hit?);
     let seen = camera.rays().into_iter().zip(picture.first.iter().copied()).map(surface);
-    let of = |surfel: Surfel<'_>| (narrow(surfel.shading), albedo(surfel.material));
+    let of = |surfel: Surfel<'_>| (narrow(surfel.shading), narrow(albedo(&surfel.material.surface)));
     let (normals, albedos): (Vec<[f32; 3]>, Vec<Color>) = seen.map(|surfel| surfel.map(of).unwrap_or_default()).unzip();
     let depth = picture.first.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t)).collect();
     let triangles = picture.first.iter().map(|hit| hit.map_or(u32::MAX, |hit| hit.triangle)).collect();
@@ -36,13 +37,4 @@ fn with_vectors(
     names.into_iter().enumerate().try_fold(picture, |picture, (component, name)| {
         picture.with(name, unit, Samples::Float(vectors.iter().map(|vector| vector[component]).collect()))
     })
-}
-
-fn albedo(material: &Material) -> Color {
-    match material.surface {
-        Surface::Diffuse { albedo } => albedo,
-        Surface::Glossy { albedo, specular, .. } => [0, 1, 2].map(|c| albedo[c] + specular[c]),
-        Surface::Mirror { reflectance } => reflectance,
-        Surface::Glass { transmittance, .. } => transmittance,
-    }
 }

@@ -17,8 +17,7 @@ pub(super) struct LightSample {
     /// Ray to the light, which it reaches at t = 1.
     pub(super) ray: Ray,
     pub(super) towards: DVec3,
-    /// Radiance divided by the probability density (area lights), or irradiance perpendicular to the direction (point
-    /// lights).
+    /// Radiance divided by the density (area lights), or irradiance perpendicular to the direction (point lights).
     pub(super) light: DVec3,
     /// Probability density over solid angle; infinite for point lights, which no other sampling strategy can hit.
     pub(super) density: f64,

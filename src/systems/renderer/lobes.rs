@@ -149,8 +149,7 @@ fn reflected(away: DVec3, normal: DVec3) -> DVec3 {
     2.0 * away.dot(normal) * normal - away
 }
 
-/// Refracts a ray at a boundary (Snell's law): `away` points from the surface back along the ray, `normal` to the same
-/// side. `None` under total internal reflection.
+/// Snell's law: `away` points back along the ray, `normal` to the same side. `None` under total internal reflection.
 fn refracted(away: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     let cosine = away.dot(normal);
     let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
@@ -160,8 +159,7 @@ fn refracted(away: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     unit(-ratio * away + (ratio * cosine - square.sqrt()) * normal)
 }
 
-/// Mirror direction about the shading normal, or about the triangle's normal if that direction leads through the
-/// triangle.
+/// Mirror direction about the shading normal, or the triangle's normal if it would lead through the triangle.
 fn mirror_direction(surfel: &Surfel<'_>) -> DVec3 {
     let smooth = reflected(surfel.view, surfel.shading);
     if smooth.dot(surfel.normal) > 0.0 { smooth } else { reflected(surfel.view, surfel.normal) }

@@ -8,10 +8,9 @@
 //! - [`path`]: path tracing, unbiased (Kajiya 1986; Veach 1997);
 //! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth.
 //!
-//! All renderers work breadth first: they generate a bundle of rays, cast it through [`crate::tracer::Caster`], shade,
-//! and generate the next bundle. Random numbers are keyed by pixel, sample and dimension, and all sums run in the order
-//! of samples: the picture does not depend on the size of bundles, on threads, or on the order in which rays are
-//! traced. It depends on the caster only where casters differ in the first triangle of a ray.
+//! All work breadth first: they cast a bundle of rays, shade, and generate the next bundle. Random numbers are keyed by
+//! pixel, sample and dimension, and all sums run in the order of samples, so the picture depends on the caster only
+//! where casters differ in the first triangle of a ray.
 
 mod counting;
 pub mod distributed;

@@ -25,8 +25,7 @@ pub enum Direct {
     Walk,
     /// Only by points sampled on the emitters (next-event estimation), except at mirrors and glass.
     Emitters,
-    /// By both, with multiple importance sampling: each sample is weighted by its density divided by the sum of both
-    /// (the balance heuristic, Veach and Guibas 1995).
+    /// By both, weighted by their densities (the balance heuristic, Veach and Guibas 1995).
     #[default]
     Both,
 }

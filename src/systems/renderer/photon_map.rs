@@ -1,6 +1,5 @@
 //! Photon map with density estimation: a balanced kd-tree in one array (Jensen 1996; Bentley 1975).
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::PI;
 
@@ -20,27 +19,6 @@ pub struct Photon {
     pub from: DVec3,
     /// Flux: red, green, blue.
     pub power: DVec3,
-}
-
-/// Photon with its squared distance; ordered by distance, then by index in the map, so that the order of sums is fixed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct PhotonDistance {
-    square: f64,
-    photon: u32,
-}
-
-impl Eq for PhotonDistance {}
-
-impl Ord for PhotonDistance {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.square.total_cmp(&other.square).then(self.photon.cmp(&other.photon))
-    }
-}
-
-impl PartialOrd for PhotonDistance {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
 }
 
 /// Kd-tree: the middle element of each range is its node, split along the axis in `axes`.
@@ -75,11 +53,11 @@ impl PhotonMap {
         search.range(0, self.photons.len());
         let full = search.found.len() == search.nearest;
         let mut found = search.found.into_sorted_vec();
-        let square = if full { found.pop().map_or(0.0, |last| last.square) } else { radius * radius };
+        let square = if full { found.pop().map_or(0.0, |(square, _)| f64::from_bits(square)) } else { radius * radius };
         if square <= 0.0 {
             return DVec3::ZERO;
         }
-        let sum: DVec3 = found.iter().map(|near| value(&self.photons[near.photon as usize])).sum();
+        let sum: DVec3 = found.iter().map(|&(_, photon)| value(&self.photons[photon as usize])).sum();
         1.0 / (PI * square) * sum
     }
 }
@@ -118,7 +96,8 @@ struct NearestSearch<'a> {
     nearest: usize,
     /// Squared search radius; shrinks once enough photons are found.
     square: f64,
-    found: BinaryHeap<PhotonDistance>,
+    /// Bits of the squared distance, which are in its order, and index in the map, so that the order of sums is fixed.
+    found: BinaryHeap<(u64, u32)>,
 }
 
 impl NearestSearch<'_> {
@@ -142,18 +121,18 @@ impl NearestSearch<'_> {
     fn offer(&mut self, index: usize) {
         let photon = &self.map.photons[index];
         let offset = photon.at - self.at;
-        let near = PhotonDistance { square: offset.dot(offset), photon: index as u32 };
-        if near.square > self.square || photon.normal.dot(self.normal) < SAME_WAY {
+        let square = offset.dot(offset);
+        if square > self.square || photon.normal.dot(self.normal) < SAME_WAY {
             return;
         }
-        self.found.push(near);
+        self.found.push((square.to_bits(), index as u32));
         if self.found.len() > self.nearest {
             self.found.pop();
         }
         if self.found.len() == self.nearest
-            && let Some(last) = self.found.peek()
+            && let Some(&(last, _)) = self.found.peek()
         {
-            self.square = last.square;
+            self.square = f64::from_bits(last);
         }
     }
 }

@@ -63,8 +63,7 @@ impl DiscreteDistribution {
         self.sums.last().copied().unwrap_or(0.0)
     }
 
-    /// Samples an entry by a number in [0, 1); returns the entry and its probability, or `None` if all weights are
-    /// zero.
+    /// Samples an entry by a number in [0, 1), with its probability; `None` if all weights are zero.
     pub fn draw(&self, u: f64) -> Option<(usize, f64)> {
         let total = self.total();
         if total <= 0.0 {

@@ -16,8 +16,7 @@ pub struct Lens {
 /// Settings shared by all renderers; each renderer documents its meaning of `depth`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Samples per pixel, at least 1. A single sample passes through the centre of the pixel; several samples are
-    /// distributed uniformly over the pixel.
+    /// Samples per pixel, at least 1: one through the centre, or several distributed uniformly over the pixel.
     pub samples: u32,
     /// Maximum path length.
     pub depth: u32,

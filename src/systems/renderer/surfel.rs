@@ -58,8 +58,7 @@ impl<'a> Surfel<'a> {
     }
 }
 
-/// Barycentric coordinates at which the ray crosses the triangle's plane, clamped to the triangle; if the plane is seen
-/// edge-on, coordinates of the point at `t`.
+/// Weights at which the ray crosses the triangle's plane, clamped; of the point at `t` if the plane is edge-on.
 fn barycentric([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3, t: f64) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let normal = ab.cross(ac);

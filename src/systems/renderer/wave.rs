@@ -107,8 +107,7 @@ pub(super) struct Wave {
     pub(super) first: Vec<Option<Hit>>,
 }
 
-/// Traces eye rays, one per slot, and all rays that the shader spawns. The order of every sum is independent of the
-/// chunk's size.
+/// Traces eye rays, one per slot, and all rays that the shader spawns, with sums in an order free of the chunk's size.
 pub(super) fn follow(
     tracer: &mut CountingCaster<'_>,
     mut flights: Vec<PathRay>,

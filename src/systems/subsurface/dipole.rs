@@ -143,8 +143,7 @@ impl Dipole {
         0.5 * self.alpha_prime() * (1.0 + exp(-4.0 / 3.0 * self.boundary * q)) * exp(-q)
     }
 
-    /// [`Self::total`] by quadrature of R_d, over a disc of radius 10^4 z_v; the rest, at most 10^-4, is in closed
-    /// form.
+    /// [`Self::total`] by quadrature of R_d, over a disc of radius 10^4 z_v; the rest is in closed form.
     pub fn integrated_total(&self) -> f64 {
         let radius = 1e4 * self.z_v;
         graded_integral(radius, PANELS, |r| 2.0 * PI * r * self.r_d(r)) + self.beyond(radius)

@@ -36,8 +36,7 @@ impl DipoleSum {
         self.scale * sum
     }
 
-    /// The sum of weight times R_d, with the host's widest vectors. Partial sums and their order do not depend on the
-    /// vectors' width.
+    /// The sum of weight times R_d, in an order that does not depend on the width of the host's vectors.
     pub(super) fn sum(&self, squared: &[f64], weights: &[f64]) -> f64 {
         let sums = SimdLevel::widest().run(
             #[inline(always)]

@@ -6,8 +6,7 @@ use crate::quadrature::graded_integral;
 /// Intervals of the quadrature of means; the last but one begins at a cosine of 2^-52.
 const PANELS: u32 = 53;
 
-/// The mean of the transmittance into a medium of index `eta` over a hemisphere of equal radiance outside: the
-/// integral of 2 c F_t(c) over cosines c in [0, 1].
+/// The mean transmittance into a medium under equal radiance: the integral of 2 c F_t(c) over cosines c in [0, 1].
 pub fn mean_transmittance(eta: f64) -> f64 {
     graded_integral(1.0, PANELS, |c| 2.0 * c * fresnel_transmittance(eta, c))
 }

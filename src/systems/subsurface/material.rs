@@ -15,11 +15,6 @@ fn check_finite(what: &str, found: f64) -> Result<(), InputError> {
     Ok(())
 }
 
-fn out_of_range_error(what: &'static str, found: f64) -> InputError {
-    input_error!("subsurface::material" =>
-        "expected {MIN_SCATTERING:e} to {MAX_COEFFICIENT:e} per mm for the {what}, found {found:e}")
-}
-
 /// Scattering and absorption of one channel, per mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients {
@@ -32,21 +27,19 @@ pub struct Coefficients {
 impl Coefficients {
     /// Checks that the coefficients are valid: both finite, absorption at least 0, scattering above 0.
     pub fn check(self) -> Result<(), InputError> {
-        let scattering = ("reduced scattering coefficient", self.sigma_s_prime);
-        for (what, found) in [scattering, ("absorption coefficient", self.sigma_a)] {
+        let scattering = "reduced scattering coefficient";
+        for (what, found) in [(scattering, self.sigma_s_prime), ("absorption coefficient", self.sigma_a)] {
             check_finite(what, found)?;
             ensure!(found >= 0.0, "subsurface::material" => "expected at least 0 for the {what}, found {found}");
-            if found > MAX_COEFFICIENT {
-                return Err(out_of_range_error(what, found));
-            }
+            ensure!(found <= MAX_COEFFICIENT, "subsurface::material" =>
+                "expected at most {MAX_COEFFICIENT:e} per mm for the {what}, found {found:e}");
         }
-        let (what, found) = scattering;
-        match found {
-            0.0 => Err(input_error!("subsurface::material" =>
-                "expected a reduced scattering coefficient above 0: without scattering no light comes back")),
-            _ if found < MIN_SCATTERING => Err(out_of_range_error(what, found)),
-            _ => Ok(()),
-        }
+        let found = self.sigma_s_prime;
+        ensure!(found != 0.0, "subsurface::material" =>
+            "expected a {scattering} above 0: without scattering no light comes back");
+        ensure!(found >= MIN_SCATTERING, "subsurface::material" =>
+            "expected at least {MIN_SCATTERING:e} per mm for the {scattering}, found {found:e}");
+        Ok(())
     }
 
     /// The reduced extinction coefficient sigma'_t = sigma'_s + sigma_a, per mm.

@@ -22,8 +22,7 @@ use crate::quadrature::FIVE;
 
 /// Texels nearer than this multiple of the sum of their radii are integrated.
 const NEAR: f64 = 5.0;
-/// Texels nearer than this multiple of the sum of their radii are integrated with triangles no longer than the mean
-/// free path.
+/// Texels nearer than this multiple of their radii are integrated with triangles no longer than the mean free path.
 const CLOSE: f64 = 1.5;
 /// Maximum number of divisions of a triangle's side, which suffices for texels of up to this many mean free paths.
 const MAX_DIVISIONS: u32 = 4;
@@ -71,14 +70,9 @@ impl<'a> Reference<'a> {
         Ok(Self { atlas, mm_per_unit, dipole: *dipole, r_d: DipoleSum::new(dipole), texels })
     }
 
-    /// The radiosity of every texel for an irradiance of every texel, row by row: equation 9, B_i = sum over j of F_ij
-    /// E_j. `done` is called repeatedly with the number of finished rows and of all rows.
-    pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, InputError> {
-        self.radiosity_of_rows(irradiance, 0..self.atlas.side() as usize, done)
-    }
-
-    /// Like [`Self::radiosity`], for the texels of some rows.
-    pub fn radiosity_of_rows(
+    /// The radiosity of the texels of some rows for an irradiance of every texel, row by row: equation 9, B_i = sum over
+    /// j of F_ij E_j. `done` is called repeatedly with the number of finished rows and of all these rows.
+    pub fn radiosity(
         &self,
         irradiance: &[f64],
         rows: Range<usize>,
@@ -96,8 +90,7 @@ impl<'a> Reference<'a> {
         Ok(radiosity)
     }
 
-    /// F_ij of equation 10 for two texels, by index: 1 / A_i times the double integral of R_d over both parts. Panics
-    /// if there is no such texel.
+    /// F_ij of equation 10 for two texels, by index. Panics if there is no such texel.
     pub fn factor(&self, i: usize, j: usize) -> f64 {
         let reach = self.texels.radius[i] + self.texels.radius[j];
         let distance = self.point(i).distance(self.point(j));
@@ -126,8 +119,7 @@ impl<'a> Reference<'a> {
         })
     }
 
-    /// The sum over all texels of power times R_d from the point; for near texels, `near(texel, is close)` replaces
-    /// R_d.
+    /// The sum over all texels of power times R_d, or times `near(texel, is close)` for near texels.
     fn sum(&self, point: DVec3, radius: f64, power: &[f64], mut near: impl FnMut(usize, bool) -> f64) -> f64 {
         let mut sum = 0.0;
         let (mut squared, mut far_power) = ([0.0; CHUNK], [0.0; CHUNK]);

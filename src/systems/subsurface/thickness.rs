@@ -31,8 +31,7 @@ pub fn median_thickness(mesh: &Mesh) -> Option<f64> {
     median.map(|&(thickness, _)| thickness).filter(|thickness| thickness.is_finite())
 }
 
-/// The ray from the centre of a face along its inward normal, of unit length, and the distance of its origin below the
-/// face.
+/// The ray from the centre of a face along its inward normal, and the distance of its origin below the face.
 fn inward_ray(mesh: &Mesh, face: u32) -> Option<(Ray, f64)> {
     let center = SurfacePoint::new(mesh, face, DVec3::splat(1.0 / 3.0), SINGLE)?;
     let inward = -center.normal;

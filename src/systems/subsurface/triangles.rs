@@ -23,35 +23,31 @@ const ORBITS: [(f64, f64); 2] =
 #[derive(Debug)]
 pub(super) struct TriangleIntegrals<'a> {
     r_d: &'a DipoleSum,
-    depth: f64,
-    sigma_tr: f64,
-    total: f64,
+    dipole: &'a Dipole,
     pending: Vec<([DVec3; 3], u32)>,
     squared: Vec<f64>,
     weights: Vec<f64>,
 }
 
 impl<'a> TriangleIntegrals<'a> {
-    pub(super) fn new(r_d: &'a DipoleSum, dipole: &Dipole) -> Self {
-        let (depth, sigma_tr, total) = (dipole.z_r(), dipole.sigma_tr(), dipole.total());
-        Self { r_d, depth, sigma_tr, total, pending: Vec::new(), squared: Vec::new(), weights: Vec::new() }
+    pub(super) fn new(r_d: &'a DipoleSum, dipole: &'a Dipole) -> Self {
+        Self { r_d, dipole, pending: Vec::new(), squared: Vec::new(), weights: Vec::new() }
     }
 
     /// The integral of R_d from a point over triangles, with an error of about 1e-5 of the plane's total per triangle.
     pub(super) fn over(&mut self, point: DVec3, triangles: &[[DVec3; 3]]) -> f64 {
-        let mut sum = 0.0;
+        let (mut sum, depth, least) = (0.0, self.dipole.z_r(), NEGLIGIBLE * self.dipole.total());
         self.pending.extend(triangles.iter().map(|triangle| (*triangle, 0)));
         while let Some((triangle, bisections)) = self.pending.pop() {
             let [a, b, c] = triangle;
             let middle = (a + b + c) / 3.0;
             let radius = triangle.iter().map(|corner| corner.distance_squared(middle)).fold(0.0, f64::max).sqrt();
             let squared = point.distance_squared(middle);
-            let slope = 3.0 / (squared + self.depth * self.depth).sqrt() + self.sigma_tr;
+            let slope = 3.0 / (squared + depth * depth).sqrt() + self.dipole.sigma_tr();
             let area = (b - a).cross(c - a).length() / 2.0;
             let nearest = (squared.sqrt() - radius).max(0.0);
-            let divides = radius * slope > SMALL
-                && bisections < MAX_BISECTIONS
-                && area * self.r_d.at(nearest * nearest) > NEGLIGIBLE * self.total;
+            let divides =
+                radius * slope > SMALL && bisections < MAX_BISECTIONS && area * self.r_d.at(nearest * nearest) > least;
             if divides {
                 let [p, q, r] = from_longest(triangle);
                 let half = (p + q) / 2.0;

@@ -15,3 +15,7 @@ mod transfer;
 // Tests name modules as the library does, `crate::geom`.
 use crossbar_base::{error, geom};
 use crossbar_ground::{card, io, linalg, scene, sphere, tracer};
+
+fn device(name: &str) -> refsim::device::Profile {
+    refsim::device::Profile::named(name).expect("a device")
+}

@@ -9,14 +9,11 @@ use crossbar_systems::ray_engine::engine::{EngineCounts, EngineParameters, RayEn
 use crossbar_systems::ray_engine::model::CostRates;
 use crossbar_systems::ray_engine::ray_tree::{RayTree, RayTreeParameters};
 use crossbar_systems::ray_engine::{Crossbar, RayBatch};
-use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
-const GEFORCE3: CostRates = CostRates { fill_pixels_per_s: 390e6, readback_bytes_per_s: 250e6 };
+use crate::device;
 
-fn profile(name: &str) -> Profile {
-    Profile::named(name).expect("a device")
-}
+const GEFORCE3: CostRates = CostRates { fill_pixels_per_s: 390e6, readback_bytes_per_s: 250e6 };
 
 #[test]
 fn the_card_pays_from_the_least_number_of_triangles_on_and_not_before() {
@@ -70,14 +67,14 @@ fn every_draw_of_resident_rays_is_that_of_a_new_one() {
     let mesh = Mesh::new(whole.positions().to_vec(), whole.triangles()[..64].to_vec()).expect("a part of it");
     let camera = Camera::teapot(16, 16).expect("the default camera");
     let rays = RayBatch::new(16, 16, camera.rays()).expect("a ray per pixel");
-    for device in ["ideal-s3.12", "ideal-fp32"] {
-        let crossbar = Crossbar::new(profile(device), ExecutorKind::Batch).all_pairs(true);
+    for name in ["ideal-s3.12", "ideal-fp32"] {
+        let crossbar = Crossbar::new(device(name), ExecutorKind::Batch).all_pairs(true);
         let new = crossbar.intersect(&mesh, &rays, Sides::Front).expect("the card intersects");
-        assert!(new.hits.iter().any(Option::is_some), "{device}: something is hit");
+        assert!(new.hits.iter().any(Option::is_some), "{name}: something is hit");
         let mut resident = crossbar.make_resident(&mesh, &rays, Sides::Front).expect("the card takes them");
         for draw in 0..3 {
             let again = resident.intersect().expect("the card intersects");
-            assert_eq!((&again.hits, &again.events), (&new.hits, &new.events), "{device}, draw {draw}");
+            assert_eq!((&again.hits, &again.events), (&new.hits, &new.events), "{name}, draw {draw}");
         }
     }
 }
@@ -85,7 +82,7 @@ fn every_draw_of_resident_rays_is_that_of_a_new_one() {
 #[test]
 fn without_triangles_nothing_is_hit() {
     let rays = RayBatch::new(2, 1, Camera::teapot(2, 1).expect("a camera").rays()).expect("two rays");
-    let crossbar = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch);
+    let crossbar = Crossbar::new(device("ideal-fp32"), ExecutorKind::Batch);
     let mut resident =
         crossbar.make_resident(&Mesh::default(), &rays, Sides::Front).expect("no triangles are no error");
     assert_eq!(resident.intersect().expect("nothing to do").hits, [None, None]);
@@ -98,7 +95,7 @@ fn every_id_comes_back_as_a_color() {
     let mesh = Mesh::new(triangle.to_vec(), vec![[0, 1, 2]; 1 << 24]).expect("as many triangles as there are ids");
     let ray = |x: f32| Ray::new([x, 0.25, 1.0], [0.0, 0.0, -1.0]).expect("a ray");
     let rays = RayBatch::new(2, 1, vec![ray(0.25), ray(2.0)]).expect("two rays");
-    let crossbar = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch);
+    let crossbar = Crossbar::new(device("ideal-fp32"), ExecutorKind::Batch);
     for id in [0, 1, 255, 256, 0x0012_3456, 0x00ff_ffff] {
         let answer = crossbar.intersect_pass(&mesh, &[id], &rays, Sides::Front, false).expect("the card intersects");
         let found: Vec<Option<u32>> = answer.hits.iter().map(|hit| hit.map(|hit| hit.triangle)).collect();
@@ -141,7 +138,7 @@ fn order(shuffle: Option<u64>, before: usize) -> Vec<u64> {
     let mesh = teapot(1).expect("the teapot tessellates");
     let tree = RayTreeParameters { bucket: 4096, merge: 0 };
     let parameters = EngineParameters { shuffle, tree, card: false, ..EngineParameters::default() };
-    let mut engine = RayEngine::new(&mesh, profile("r300"), ExecutorKind::Batch, parameters).expect("an engine");
+    let mut engine = RayEngine::new(&mesh, device("r300"), ExecutorKind::Batch, parameters).expect("an engine");
     let ray = Ray::new([100.0, 100.0, 100.0], [0.0, 0.0, 1.0]).expect("a ray");
     let mut answer = |count: usize| {
         let first = engine.submit(&vec![ray; count]).expect("rays enter").0;

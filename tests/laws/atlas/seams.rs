@@ -3,7 +3,7 @@
 //! Weights of corners are multiples of 2^-K, so coordinates are multiples of 2^-K texels, and the arithmetic of reads
 //! is exact.
 
-use crossbar::atlas::{Atlas, DrawnFace, FacePlace, WholeFace};
+use crossbar::atlas::{Atlas, DrawnFace, FacePlace};
 use proptest::prelude::*;
 
 use super::meshes::atlases;
@@ -24,9 +24,9 @@ fn drawn_at(drawn: &DrawnFace, place: &FacePlace, weights: [i64; 3]) -> [i64; 2]
 }
 
 /// The coordinates of a point over the whole face: on each axis the smaller of two interpolated coordinates.
-fn whole_at(whole: &WholeFace, weights: [i64; 3]) -> [i64; 2] {
+fn whole_at(drawn: &DrawnFace, weights: [i64; 3]) -> [i64; 2] {
     let at = |pair: usize, axis: usize| {
-        let vertices = whole.vertices.iter().zip(weights);
+        let vertices = drawn.whole.iter().zip(weights);
         vertices.map(|(vertex, weight)| i64::from(vertex.at[pair][axis]) * weight).sum::<i64>()
     };
     [0, 1].map(|axis| at(0, axis).min(at(1, axis)))
@@ -62,7 +62,7 @@ proptest! {
     fn no_point_reads_another_faces_texel((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
         for (face, place) in (0..).zip(atlas.places()) {
-            let (drawn, whole) = (atlas.drawn(face), atlas.drawn_whole(face));
+            let drawn = atlas.drawn(face);
             let owner = |[x, y]: [i64; 2]| {
                 let inside = (0..i64::from(side)).contains(&x) && (0..i64::from(side)).contains(&y);
                 inside.then(|| atlas.texels()[(y * i64::from(side) + x) as usize].face)
@@ -71,7 +71,7 @@ proptest! {
                 let at = drawn_at(&drawn, place, weights);
                 let told = atlas.coordinates(face, weights.map(|weight| weight as f64 / ONE as f64));
                 prop_assert_eq!(at.map(|at| at as f64 / ONE as f64), told, "the same map, drawn and computed");
-                prop_assert_eq!(at, whole_at(&whole, weights), "and drawn whole");
+                prop_assert_eq!(at, whole_at(&drawn, weights), "and drawn whole");
                 let read = clamped(&drawn, at);
                 let nearest = read.map(|at| at.div_euclid(ONE));
                 prop_assert_eq!(owner(nearest), Some(face), "nearest, {:?}", weights);

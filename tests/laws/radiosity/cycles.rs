@@ -1,20 +1,14 @@
 //! The end of an iteration on a card: a fixed point, a cycle, or the maximum number of iterations.
 
-use crate::support::profile;
 use crossbar::radiosity::on_card::{CardSolution, CardSolver, Cycle, Storage};
 use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::solve::Options;
 use crossbar::radiosity::{FormFactors, System};
-use refsim::machine::ExecutorKind;
 
-use super::{cornell, random_system};
+use super::{card, cornell, random_system};
 
 /// Options with a tolerance of 0, which no iteration meets unless it reaches a fixed point.
 const ENDLESS: Options = Options { tolerance: 0.0, most_iterations: 400 };
-
-fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
-    CardSolver::new(profile("nv35"), ExecutorKind::Batch, system, packing, storage).expect("a card")
-}
 
 /// A random room of a few patches.
 fn small(size: usize, seed: u64) -> System {

@@ -21,6 +21,7 @@ fn scenes_that_make_no_patches() {
     assert!(Patches::new(&good, Subdivision::AtMost(MAX_PATCHES)).is_ok());
     let mirror = Material { surface: Surface::Mirror { reflectance: [1.0; 3] }, ..good.materials()[0].clone() };
     let mirror = Scene::new(good.mesh().clone(), vec![mirror], vec![0], Vec::new()).expect("a scene");
+    let many = scene(&corners, &[[0, 1, 2]; MAX_PATCHES + 1]);
     let thin = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 1e-30]];
     for (scene, cut, word) in [
         (&Scene::default(), one, "surfaces"),
@@ -28,6 +29,7 @@ fn scenes_that_make_no_patches() {
         (&scene(&thin, &[[0, 1, 2]]), one, "triangle 0 (counted from 0) is too thin"),
         (&good, Subdivision::PerSide(0), "found 0"),
         (&good, Subdivision::PerSide(200), "found 40000"),
+        (&many, Subdivision::AtMost(9), "faces, each at least one patch, found 16385"),
         (&mirror, one, "material `white` is a mirror"),
     ] {
         let error = Patches::new(scene, cut).unwrap_err().to_string();

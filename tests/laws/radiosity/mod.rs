@@ -13,13 +13,17 @@ mod others;
 mod solvers;
 mod textures;
 
+use crate::support::profile;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Sides};
 use crossbar::linalg::Matrix;
+use crossbar::radiosity::on_card::{CardSolver, Storage};
+use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
 use crossbar::scene::{Material, Scene};
 use crossbar::tracer::HostTracer;
+use refsim::machine::ExecutorKind;
 
 /// The Cornell box without blocks, with closure of form factors enforced.
 fn cornell(patches: usize) -> System {
@@ -61,4 +65,8 @@ fn random_system(size: usize, reach: f64, seed: u64) -> (Matrix, Vec<f64>) {
         row[i] = diagonal;
     }
     (matrix, (0..size).map(|i| number(i, size + 1)).collect())
+}
+
+fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
+    CardSolver::new(profile("nv35"), ExecutorKind::Batch, system, packing, storage).expect("a card")
 }

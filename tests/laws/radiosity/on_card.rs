@@ -6,16 +6,12 @@ use crossbar::radiosity::card_system::CardSystem;
 use crossbar::radiosity::on_card::{CardSolver, Storage};
 use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::solve::{Options, Solver};
-use crossbar::radiosity::{System, kernels, model};
+use crossbar::radiosity::{kernels, model};
 use refsim::asm::assemble;
 use refsim::check::{RuleId, check};
 use refsim::machine::ExecutorKind;
 
-use super::cornell;
-
-fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
-    CardSolver::new(profile("nv35"), ExecutorKind::Batch, system, packing, storage).expect("a card")
-}
+use super::{card, cornell};
 
 #[test]
 fn a_solution_is_reached_and_its_history_is_the_residuals() {

@@ -320,7 +320,7 @@ fn what_does_not_fit_the_card_is_refused() {
     assert!(new(small, &links, ETA, leveled).is_ok(), "the atlas alone fits");
     // Bytes of links, radiosity map, levels, levels side by side, and scattered irradiance.
     let bytes = 4096 + 4096 + 1360 + 8192 + 4096;
-    assert_eq!(new(nv35(), &links, ETA, usual).expect("a card").memory().bytes(), bytes);
+    assert_eq!(new(nv35(), &links, ETA, usual).expect("a card").memory()[0], bytes);
     // The range of `crossbar::subsurface::MAX_ETA`, where the polynomial for the internal reflection holds.
     assert!([0.9, 3.5, 1e5].into_iter().all(|eta| new(nv35(), &links, eta, usual).is_err()));
     let unlit = SubsurfaceCardOptions { map: MapFormat::Unorm8 { scale: 0.0 }, ..usual };

@@ -158,6 +158,8 @@ fn figures_that_make_no_medium_are_refused() {
     let is_refused = |s, a, eta| Dipole::new(Coefficients { sigma_s_prime: s, sigma_a: a }, eta).is_err();
     assert!([f64::NAN, -1.0, 0.0, 1e-31].into_iter().all(|s| is_refused(s, 0.5, 1.3)));
     assert!([f64::INFINITY, -0.5].into_iter().all(|a| is_refused(1.0, a, 1.3)));
+    let opaque = Coefficients { sigma_s_prime: 1.0, sigma_a: 1e31 }.check().unwrap_err().to_string();
+    assert_eq!(opaque, "expected at most 1e30 per mm for the absorption coefficient, found 1e31");
     assert!([0.9, f64::NAN].into_iter().all(|eta| is_refused(1.0, 0.5, eta)));
     let bad = [FIGURE_7, FIGURE_7, Coefficients { sigma_s_prime: 0.0, sigma_a: 0.0 }];
     let message = Material::new("mine", bad, 1.3).unwrap_err().to_string();

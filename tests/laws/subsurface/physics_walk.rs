@@ -8,9 +8,11 @@ use approx::assert_relative_eq;
 use crossbar::elementary::{ln, sin_cos};
 use crossbar::geom::random::CounterRng;
 use crossbar::quadrature::SIXTEEN;
-use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance};
+use crossbar::subsurface::fresnel_transmittance;
 use glam::DVec3;
 use rayon::prelude::*;
+
+use super::links_models::figure_7;
 
 /// Standard deviations that a correct result exceeds in one of 10^5 cases.
 const FAR: f64 = 4.5;
@@ -115,11 +117,10 @@ fn half_spaces_without_a_boundary_have_chandrasekhars_albedo() {
 /// paths, the share of a million other photons that leaves in each ring, and the dipole's share.
 #[test]
 fn the_dipole_is_as_far_off_as_the_page_says() {
-    let coefficients = Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 };
-    let dipole = Dipole::new(coefficients, 1.3).unwrap();
+    let dipole = figure_7();
     let walked = [0.0644, 0.1373, 0.3258, 0.3043, 0.0740];
     let (paths, rings) = ([0.25, 1.0, 4.0, 16.0, 64.0], ["0.0157", "0.1424", "0.3442", "0.3099", "0.0819"]);
-    let medium = HalfSpace { albedo: coefficients.alpha_prime(), eta: 1.3, beam: None, seed: 7 };
+    let medium = HalfSpace { albedo: dipole.alpha_prime(), eta: 1.3, beam: None, seed: 7 };
     medium.require(20_000, &walked, &paths, 0.9085);
     let radii = paths.map(|paths| paths * dipole.mean_free_path());
     let inner = [0.0].into_iter().chain(radii);

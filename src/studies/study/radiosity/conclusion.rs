@@ -18,18 +18,22 @@ pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
     tally(|stopped| stopped == StopReason::Iterations, "ran out of iterations", Tone::Neutral);
 }
 
-/// Row with the largest mean error; `None` if there is no direct solution to compare with.
+/// Row with the largest mean error, or if there is none, with the largest relative error; `None` if there is no direct
+/// solution to compare with.
 pub(super) fn least_accurate(rows: &[MethodRow]) -> Option<&MethodRow> {
-    let bias = |row: &MethodRow| row.error.map_or(0.0, |error| error.bias.abs());
-    rows.iter()
-        .filter(|row| row.error.is_some() && row.method != SolveMethod::DIRECT)
-        .max_by(|a, b| bias(a).total_cmp(&bias(b)))
+    let size = |row: &&MethodRow| row.error.map(|error| [error.bias.abs(), error.relative]);
+    let rows = rows.iter().filter(|row| row.error.is_some() && row.method != SolveMethod::DIRECT);
+    rows.max_by(|a, b| size(a).partial_cmp(&size(b)).unwrap_or(std::cmp::Ordering::Equal))
 }
 
 fn accuracy(rows: &[MethodRow]) -> Option<String> {
     let worst = least_accurate(rows)?;
     let error = worst.error?;
     Some(match error.not_finite {
+        // Every patch emits.
+        0 if error.relative_unlit == 0.0 => {
+            format!("{} is the least accurate: its largest relative error is {}.", worst.label, percent(error.relative))
+        }
         0 => format!(
             "{} is the least accurate: non-emitting patches are {} on average, unweighted by area; their largest relative error is {}.",
             worst.label,

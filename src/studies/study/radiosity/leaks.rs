@@ -50,14 +50,14 @@ pub(super) fn rows(
 }
 
 const EXPLAINED: &str = "Each row recomputes the form factors with rays of the Ray Engine, on that card or in that \
-    format. differing counts rays whose hit differs from the exact first hit: in the triangle, or in whether there is \
-    one. factors is the sum of the absolute changes of a patch's form factors against those of the host's rays: its \
-    mean over the patches, and the largest. The last three columns are errors of the direct solution, against the \
+    format. passes_s is the modelled time of the card's passes. differing counts rays whose hit differs from the exact \
+    first hit: in the triangle, or in whether there is one. factors is the sum of the absolute changes of a patch's \
+    form factors against those of the host's rays: its mean over the patches, and the largest. The last three columns are errors of the direct solution, against the \
     direct solution with the host's form factors: the largest error relative to the brightest patch; the largest \
     relative error of a patch that does not emit; and the signed mean of these relative errors.";
 
 pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {
-    let columns = "rays_by rays on_card_% differing differing_% factors_% factors_largest_% largest_error \
+    let columns = "rays_by rays on_card_% passes_s differing differing_% factors_% factors_largest_% largest_error \
          largest_relative mean_relative";
     let mut table = Table::of("Rays of the Ray Engine: what leaks into the room", columns);
     for LeakRow { cast, factors, error } in rows {
@@ -66,6 +66,7 @@ pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {
             cast.label.as_str().into(),
             cast.counts.rays.into(),
             Cell::percent(100.0 * cast.counts.share_on_card()),
+            cast.card.map_or(Cell::Empty, |time| Cell::measured(time.seconds())),
             differing.into(),
             Cell::percent(100.0 * differing as f64 / cast.counts.rays.max(1) as f64),
             Cell::percent(100.0 * factors.mean()),

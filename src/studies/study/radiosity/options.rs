@@ -48,7 +48,7 @@ impl Parameters {
 /// Options of the study.
 #[derive(Clone, Debug, clap::Args)]
 pub struct RadiosityOptions {
-    /// Cut faces into at most this many patches in total.
+    /// Cut faces into at most this many patches in total; a face is at least one patch.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = number::whole::<u32>(1..=16384))]
     pub patches: u32,
 
@@ -164,7 +164,7 @@ impl RadiosityOptions {
         }
     }
 
-    /// Every solver, without duplicates, on the card in every packing and storage; fails for options without effect.
+    /// Every solver, on the card in every packing and storage; fails for options without effect.
     pub fn methods(&self) -> Result<Vec<SolveMethod>, StudyError> {
         let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
         let solvers = or(&self.solvers, &usual);
@@ -185,15 +185,10 @@ impl RadiosityOptions {
         let pairs = packings.iter().flat_map(|&packing| storages.iter().map(move |&storage| (packing, storage)));
         let cards: Vec<_> =
             pairs.map(|(packing, storage)| SolveMethod::Card(CardMethod { packing, storage })).collect();
-        let mut methods: Vec<SolveMethod> = Vec::new();
-        for method in solvers.iter().flat_map(|solver| match solver {
+        let methods = solvers.iter().flat_map(|solver| match solver {
             SolverChoice::Host(solver) => vec![SolveMethod::Host(*solver)],
             SolverChoice::Card => cards.clone(),
-        }) {
-            if !methods.contains(&method) {
-                methods.push(method);
-            }
-        }
-        Ok(methods)
+        });
+        Ok(methods.collect())
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::conclusion::{conclude, least_accurate};
 use super::pictures::IterationPicture;
 use super::{MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow, leaks, tables};
-use crate::geom::vector::narrow;
+use crate::geom::vector::{narrow, place_bits};
 use crate::picture::RgbImage;
 use crate::radiosity::display::SmoothVertex;
 use crate::report::words::counted;
@@ -120,19 +120,18 @@ fn patches(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// Table of the vertices of the smooth display: position, first vertex of the model at that position, material of the
-/// patches, and radiosity by each method.
+/// Table of the vertices of the smooth display, each with the first vertex of the model at its position.
 fn vertices(outcome: &RadiosityOutcome) -> Table {
     let mut of_model: BTreeMap<[u32; 3], u32> = BTreeMap::new();
     for (vertex, &at) in (0..).zip(outcome.patches.mesh().positions()) {
-        of_model.entry(place(at)).or_insert(vertex);
+        of_model.entry(place_bits(at)).or_insert(vertex);
     }
     let mut table = Table::with_colors("Vertices", "vertex x y z of_model material patches", labels(outcome));
     for (i, vertex) in SmoothVertex::all(&outcome.patches).iter().enumerate() {
         let [x, y, z] = vertex.at.to_array();
         let material = vertex.patches.first().map(|&patch| outcome.patches.list()[patch as usize].material);
         let places: [Cell; 4] = [i.into(), x.into(), y.into(), z.into()];
-        let of_model = of_model.get(&place(narrow(vertex.at))).copied();
+        let of_model = of_model.get(&place_bits(narrow(vertex.at))).copied();
         let parts: [Cell; 3] = [of_model.into(), material.into(), vertex.patches.len().into()];
         let found = outcome.rows.iter().flat_map(|row| vertex.mean(&row.radiosity).map(Cell::from));
         table.push(places.into_iter().chain(parts).chain(found));
@@ -142,11 +141,6 @@ fn vertices(outcome: &RadiosityOutcome) -> Table {
 
 fn labels(outcome: &RadiosityOutcome) -> impl Iterator<Item = &str> {
     outcome.rows.iter().map(|row| row.label.as_str())
-}
-
-/// Bits of a position; both zeros give the same bits.
-fn place(at: [f32; 3]) -> [u32; 3] {
-    at.map(|x| (x + 0.0).to_bits())
 }
 
 /// Chart of Figure 3: the residual of each method by iteration. `None` if nothing iterates, or if everything is exact
@@ -170,8 +164,7 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
 /// Ratio of mean errors above which a setting of a switch has its own line; the table has all settings.
 const APART: f64 = 1.5;
 
-/// Chart of the mean error by number of patches: a line per method on the card with its defaults, and a line per
-/// setting that makes a difference. `None` without a sweep.
+/// Chart of the mean error by number of patches, for the defaults and for settings that make a difference.
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let error = |row: &SweepRow| 100.0 * row.error.bias.abs();
     let apart = |row: &SweepRow| {

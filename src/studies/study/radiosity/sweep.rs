@@ -34,8 +34,7 @@ impl SweepRow {
     }
 }
 
-/// Rows by number of patches, method on the card, and value of a switch. Rows of one number of patches and one method
-/// may have the same bits.
+/// Rows by number of patches, method on the card, and value of a switch.
 pub(super) fn rows(
     parameters: &Parameters,
     values: &[Configuration],

@@ -66,8 +66,8 @@ pub(super) fn facts(
         passes: card.passes() * systems,
         block: programs.iter().map(|p| p.texels).max().unwrap_or(0),
         instructions: programs.iter().map(PassProgram::instructions).max().unwrap_or(0),
-        matrix_bytes: model::matrix_bytes(card.len() as u32, how.packing.elements(), texel) * systems as f64,
-        time: time(how, systems, card.len(), parameters)?,
+        matrix_bytes: model::matrix_bytes(card.patches() as u32, how.packing.elements(), texel) * systems as f64,
+        time: time(how, systems, card.patches(), parameters)?,
         log,
     })
 }

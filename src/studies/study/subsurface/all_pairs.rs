@@ -4,9 +4,7 @@ use super::Parameters;
 use crate::atlas::Atlas;
 use crate::picture::metrics::{ErrorSums, value_error};
 use crate::study::{ProgressFn, StudyError};
-use crate::subsurface::{Dipole, Reference};
-
-const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+use crate::subsurface::{Dipole, Material, Reference};
 
 /// Errors of radiosities relative to expected ones; infinite if only one of two radiosities is finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,7 +40,7 @@ pub(super) fn radiosity(
     progress: &mut ProgressFn<'_>,
 ) -> Result<Vec<[f64; 3]>, StudyError> {
     let mut texels = vec![[0.0; 3]; irradiance.len()];
-    for (channel, name) in CHANNELS.iter().enumerate() {
+    for (channel, name) in Material::CHANNELS.iter().enumerate() {
         let is_like = |other: &usize| {
             dipoles[*other].coefficients() == dipoles[channel].coefficients()
                 && irradiance.iter().all(|e| e[*other] == e[channel])
@@ -55,7 +53,7 @@ pub(super) fn radiosity(
         let mut done = |done, rows| progress(&step, done as u64, rows as u64);
         let values: Vec<f64> = irradiance.iter().map(|e| e[channel]).collect();
         let reference = Reference::new(atlas, parameters.options.mm_per_unit, &dipoles[channel])?;
-        let radiosity = reference.radiosity(&values, &mut done)?;
+        let radiosity = reference.radiosity(&values, 0..atlas.side() as usize, &mut done)?;
         texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
     }
     Ok(texels)

@@ -48,8 +48,7 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
 /// Reads the error of one choice of links from a pair of bins, one per choice.
 type ErrorOf = fn((&AngleBin, &AngleBin)) -> f64;
 
-/// Compares fixed and adaptive links by angle from the light, at the largest number of links that both have, and says
-/// which choice is nearer to the sum over all pairs.
+/// Compares fixed and adaptive links by angle from the light, at the largest number of links that both have.
 fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let count = |row: &WayRow| row.way.choice.per_texel(parameters.options.side);
     let is_fixed = |row: &WayRow| matches!(row.way.choice, LinkChoice::Fixed { .. });

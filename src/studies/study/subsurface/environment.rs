@@ -14,8 +14,7 @@ use crate::transfer::light::CubeLight;
 /// Side, in texels of the light, of the square that one shadow ray of the study represents.
 const GROUP: usize = 2;
 
-/// E of equation 8 per texel of the atlas, with the model's own shadows; and statistics of the Ray Engine, if it cast
-/// them.
+/// E of equation 8 per texel of the atlas, with the model's own shadows; and the Ray Engine's statistics, if any.
 pub(super) fn irradiance(
     atlas: &Atlas,
     parameters: &Parameters,
@@ -27,8 +26,7 @@ pub(super) fn irradiance(
     Ok((found, caster.record()))
 }
 
-/// The light as parallel beams, one per `group` x `group` texels that are not all dark: the sum of radiance times solid
-/// angle, from its mean direction.
+/// The light as parallel beams, one per `group` x `group` texels that are not all dark, from their mean direction.
 pub(in crate::study) fn sources(light: &CubeLight, group: usize) -> Vec<DistantSource> {
     let source = |face: usize, row: usize, column: usize| {
         let (mut sum, mut towards) = (DVec3::ZERO, DVec3::ZERO);

@@ -91,11 +91,6 @@ impl GatherWay {
         let (choice, count) = (self.choice.word(), self.choice.per_texel(side));
         format!("{choice}-{count}{channels}-{}-map-{}", name(&self.links), name(&self.map))
     }
-
-    /// Returns `true` if the other way of gathering uses the same links.
-    pub(super) fn has_links_of(&self, other: &Self) -> bool {
-        (self.choice, self.rgb) == (other.choice, other.rgb)
-    }
 }
 
 /// Options of the study.

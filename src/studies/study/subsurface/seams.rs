@@ -6,8 +6,7 @@ use glam::{DMat3, DVec3};
 
 use crate::atlas::Atlas;
 
-/// Maximum distance of neighbors, in sides of a square with the mean area of texels: neighbors across a corner are 1.41
-/// apart.
+/// Maximum distance of neighbors, in sides of a square with the mean area of texels; across a corner it is 1.41.
 const REACH: f64 = 1.5;
 /// Minimum cosine between normals of neighbors, which excludes the far side of thin parts.
 const SAME_SIDE: f64 = 0.7;
@@ -55,8 +54,7 @@ impl Neighbours {
     }
 }
 
-/// Mean squared deviation of values at points near a plane with this normal from their best linear function; 0 for too
-/// few points.
+/// Mean squared deviation of values near a plane from their best linear function; 0 for too few points.
 fn from_linear(values: &[(DVec3, DVec3)], normal: DVec3) -> f64 {
     if values.len() < 4 {
         return 0.0;

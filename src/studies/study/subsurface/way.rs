@@ -118,7 +118,7 @@ pub(super) fn run(
     let programs = card.gather_programs();
     Ok(WayRow {
         lookups: [encoded.texture_count(), links.per_texel()],
-        memory: [card.memory().bytes(), card.memory().parts.iter().filter(|part| part.0 == "links").map(|p| p.1).sum()],
+        memory: card.memory(),
         programs: programs.iter().map(|program| [program.instructions(), program.samplers()]).collect(),
         lost: encoded.lost(if way.links == FloatTexels::Fp16 { Format::FP16 } else { Format::FP32 }),
         saturated: card.saturated().map_err(no_card)?,

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geom::vector::narrow;
+use crate::geom::vector::{narrow, place_bits};
 use crate::radiosity::Patches;
 use glam::DVec3;
 
@@ -19,8 +19,7 @@ pub(super) struct CornerSets {
 }
 
 impl CornerSets {
-    /// Collects, at each corner of each patch, the uncovered patches of the same material that meet there without a
-    /// sharp edge.
+    /// Collects, at each corner of each patch, the uncovered patches that meet there smoothly, of the same material.
     pub(super) fn new(patches: &Patches) -> Self {
         let list = patches.list();
         let mut meeting: BTreeMap<[u32; 3], Vec<u32>> = BTreeMap::new();
@@ -74,8 +73,7 @@ impl SmoothVertex {
         first.map(|(at, set)| Self { at, patches: sets[set as usize].clone() }).collect()
     }
 
-    /// Returns the vertex's radiosity, given one radiosity per patch. Panics if the radiosity of one of its patches is
-    /// missing.
+    /// The vertex's radiosity. Panics if the radiosity of one of its patches is missing.
     pub fn mean(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         mean(&self.patches, radiosity)
     }
@@ -99,5 +97,5 @@ pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]
 
 /// Key of a corner: its f32 bits, which neighbours share, with -0 as +0.
 pub(super) fn place(corner: DVec3) -> [u32; 3] {
-    narrow(corner).map(|x| (x + 0.0).to_bits())
+    place_bits(narrow(corner))
 }

@@ -11,8 +11,7 @@ use crate::geom::vector::wide;
 use crate::radiosity::{Patch, Patches};
 use glam::DVec3;
 
-/// Maximum distance at which a corner counts as on a side, relative to the scene's diagonal: the precision of f32
-/// corners.
+/// Distance at which a corner counts as on a side, relative to the scene's diagonal: the precision of f32 corners.
 const ON_SIDE: f64 = 1e-6;
 
 /// Point of a patch with its coordinates in the patch.

@@ -25,8 +25,7 @@ pub use corners::{SmoothVertex, at_corners};
 use fans::in_patch;
 use resample::Resampler;
 
-/// Patches of the same kind (quadrilaterals, triangles, fans of quadrilaterals): their vertices, and the program that
-/// interpolates.
+/// Patches of the same kind (quadrilaterals, triangles, fans of quadrilaterals), and the program that interpolates.
 #[derive(Debug)]
 struct PatchShape {
     primitive: Primitive,

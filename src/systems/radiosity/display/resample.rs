@@ -14,8 +14,7 @@ const WIDTH: usize = 512;
 /// Patches per pass.
 const PER_PASS: usize = 4;
 
-/// Constants p[0] and p[1] of the program: `(number + 1/2) * p[0] + p[1]` is the texel of a patch in the row of
-/// radiosities.
+/// p[0] and p[1] of the program: `(number + 1/2) * p[0] + p[1]` is a patch's texel in the row of radiosities.
 const PATCH_TEXEL: [[f64; 4]; 2] = [[1.0, 0.0, 0.0, 0.0], [0.0, 0.5, 0.0, 0.0]];
 
 #[derive(Debug)]

@@ -79,8 +79,7 @@ impl BoundaryEdge {
         self.at(1.0)
     }
 
-    /// Coordinates of a point relative to this side: its distance along the line from the start, and its distance from
-    /// the line.
+    /// A point's distance along the line from the start, and its distance from the line.
     fn seen_from(&self, point: DVec3) -> [f64; 2] {
         let to = point - self.start;
         let along = to.dot(self.direction);

@@ -102,8 +102,7 @@ fn kernel_sum([p, q]: [&Patch; 2], from: &[WeightedPoint], to: &[WeightedPoint])
     sum
 }
 
-/// The exchange density of two points, per area squared: the product of both cosines divided by pi times the squared
-/// distance; 0 if one point is behind the other's plane.
+/// The exchange density of two points, per area squared; 0 if one point is behind the other's plane.
 pub(super) fn kernel([p, q]: [&Patch; 2], x: DVec3, y: DVec3) -> f64 {
     let to = y - x;
     let (cosines, square) = (p.normal().dot(to).max(0.0) * (-q.normal().dot(to)).max(0.0), to.dot(to));

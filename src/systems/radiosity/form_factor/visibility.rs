@@ -73,8 +73,7 @@ pub(super) fn hide(
     Ok(())
 }
 
-/// Generates the rays of a pair: a jittered point in each stratum of one patch's open parts, paired with a point in a
-/// randomly assigned stratum of the other patch.
+/// The rays of a pair: a jittered point in each stratum of one patch, with one in a random stratum of the other.
 fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<VisibilitySample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (CounterRng::new(parameters.seed), u64::from(i) << 32 | u64::from(j));

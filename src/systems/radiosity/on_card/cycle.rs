@@ -53,8 +53,7 @@ fn digest(state: &Radiosities) -> u64 {
 }
 
 impl CardSolver {
-    /// Iterates from `start`, which is on the card, until it repeats, at most `most` times. `None` if it does not
-    /// repeat; the card is then reset to `start`.
+    /// Iterates from `start`, at most `most` times, until it repeats; else resets the card and returns `None`.
     pub(super) fn around(&mut self, start: &Radiosities, entered: u32, most: u32) -> Result<Option<Cycle>, CardError> {
         let mut cycle = Cycle { entered, period: 0, changing: 0, largest_change: 0.0 };
         let mut last = start.to_vec();

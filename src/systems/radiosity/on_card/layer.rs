@@ -24,14 +24,12 @@ pub(super) struct SystemLayout {
 
 impl SystemLayout {
     pub(super) fn of(system: &CardSystem) -> Self {
-        let matrix = system.matrix();
-        let (packing, size, block) = (system.packing(), system.len(), system.block());
+        let &CardSystem { packing, size, block, ref matrix, .. } = system;
         Self { packing, size, block, width: matrix.width, rows: matrix.height }
     }
 }
 
-/// A system's textures. A pass reads the radiosities and the previous pass's partial sums, and writes new partial sums;
-/// the last pass's sums are the new radiosities.
+/// A system's textures. A pass reads the radiosities and partial sums; the last pass's sums are the new radiosities.
 #[derive(Debug)]
 pub(super) struct Layer {
     layout: SystemLayout,
@@ -47,8 +45,8 @@ impl Layer {
     pub(super) fn new(machine: &mut Machine, system: &CardSystem, storage: Storage) -> Result<Self, CardError> {
         let layout = SystemLayout::of(system);
         let format = storage.format();
-        let matrix = system.matrix().upload(machine, format)?;
-        let emittance = system.emittance().upload(machine, format)?;
+        let matrix = system.matrix.upload(machine, format)?;
+        let emittance = system.emittance.upload(machine, format)?;
         let size = [layout.width, 1];
         let radiosity = new_target(machine, format, size)?;
         let partial = PingPong::new(machine, format, size)?;

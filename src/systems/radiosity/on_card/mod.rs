@@ -85,19 +85,9 @@ impl CardSolver {
         Ok(Self { machine, fit, layout, programs, layers })
     }
 
-    /// Layout of elements in texels.
-    pub fn packing(&self) -> Packing {
-        self.layout.packing
-    }
-
     /// Number of patches.
-    pub fn len(&self) -> usize {
+    pub fn patches(&self) -> usize {
         self.layout.size
-    }
-
-    /// Returns `true` if there are no patches.
-    pub fn is_empty(&self) -> bool {
-        self.layout.size == 0
     }
 
     /// Passes per iteration, of each system.
@@ -138,7 +128,7 @@ impl CardSolver {
         let luminance = |i: usize, c: usize| all[c.min(last)].texels[i / 4][i % 4];
         Ok(match self.layout.packing {
             Packing::Rgb => super::packing::from_rgb_vector(&all[0]),
-            Packing::Luminance => (0..self.len()).map(|i| [0, 1, 2].map(|c| luminance(i, c))).collect(),
+            Packing::Luminance => (0..self.patches()).map(|i| [0, 1, 2].map(|c| luminance(i, c))).collect(),
         })
     }
 
@@ -150,7 +140,7 @@ impl CardSolver {
 
     /// Replaces the radiosities. Fails with [`CardError::Input`] if there is not one per patch.
     pub fn load(&mut self, radiosity: &[[f32; 3]]) -> Result<(), CardError> {
-        CardError::check_size(PATCHES, self.len(), radiosity.len())?;
+        CardError::check_size(PATCHES, self.patches(), radiosity.len())?;
         let texel = |c: usize, x: usize| [0, 1, 2, 3].map(|k| radiosity.get(4 * x + k).map_or(0.0, |b| b[c]));
         let layouts: Vec<Texels> = match self.layout.packing {
             Packing::Rgb => vec![Texels::vector(radiosity.iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect())],
@@ -165,7 +155,7 @@ impl CardSolver {
     /// Dynamic relighting: uploads the emittances of a system whose matrix is on the card. Radiosities are
     /// kept. Fails with [`CardError::Input`] if the system has another number of patches.
     pub fn set_emittance(&mut self, system: &System) -> Result<(), CardError> {
-        CardError::check_size(PATCHES, self.len(), system.factors().len())?;
+        CardError::check_size(PATCHES, self.patches(), system.factors().len())?;
         let texels = emittances(system, self.layout.packing, self.fit.limit)
             .map_err(|problem| fit::too_large(self.machine.profile(), problem))?;
         let machine = &mut self.machine;

@@ -25,8 +25,7 @@ pub struct CardSolution {
     pub history: Vec<(u32, [f64; 3])>,
     /// `true` if the tolerance was reached.
     pub converged: bool,
-    /// The cycle or fixed point in which the radiosities ended without reaching the tolerance; `None` if no cycle was
-    /// found.
+    /// The cycle or fixed point in which the radiosities ended without reaching the tolerance.
     pub cycle: Option<Cycle>,
 }
 
@@ -49,7 +48,7 @@ impl CardSolver {
         options: &Options,
         each: &mut dyn FnMut(&Iteration<'_>),
     ) -> Result<CardSolution, CardError> {
-        CardError::check_size(super::PATCHES, self.len(), system.factors().len())?;
+        CardError::check_size(super::PATCHES, self.patches(), system.factors().len())?;
         let channels = [0, 1, 2];
         let target = channels.map(|c| options.tolerance * options.tolerance * mean_square(&system.right_hand_side(c)));
         let (mut history, mut number) = (Vec::new(), 0);

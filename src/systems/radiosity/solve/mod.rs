@@ -20,8 +20,7 @@ pub enum Solver {
     GaussSeidel,
     /// SOR with this relaxation factor, in (0, 2).
     OverRelaxation(f64),
-    /// Progressive refinement (Cohen and others, 1988): shoots from the patch with the most unshot power. The number of
-    /// shots per iteration equals the number of patches.
+    /// Progressive refinement: shoots from the patch with the most unshot power, once per patch and iteration.
     Shooting,
     /// LU factorisation: no iterations.
     Direct,

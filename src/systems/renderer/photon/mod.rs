@@ -151,8 +151,7 @@ impl Gathering<'_> {
         }
     }
 
-    /// Radiance estimate by a map. A photon's flux is per area of the triangle; the surface scatters it according to
-    /// the shading normal.
+    /// Radiance estimate. A photon's flux is per area of the triangle; the shading normal determines scattering.
     fn estimate(&self, map: &PhotonMap, surfel: &Surfel<'_>, lobes: &Lobes) -> DVec3 {
         if lobes.albedo.max(lobes.specular).max_element() <= 0.0 {
             return DVec3::ZERO;

@@ -23,58 +23,43 @@ pub(super) struct LinkBands {
 impl LinkBands {
     /// Computes all links with given factors, `per_texel` of them per texel.
     pub(super) fn with<const N: usize>(factors: &Factors<'_, N>, choice: LinkChoice, per_texel: usize) -> Self {
-        let side = factors.surface().side();
-        let rows = side as usize;
-        let links = rows * rows * per_texel;
-        let mut bands = Self { clusters: Vec::new(), factors: vec![0.0; links * N] };
-        match choice {
-            LinkChoice::Fixed { level } => bands.fill_fixed(factors, level),
-            LinkChoice::Adaptive { count } => {
-                // An unused link has the factor 0 and points to the root.
-                bands.clusters = vec![PackedCluster::new(root(factors.surface())); links];
-                bands.fill_adaptive(factors, per_texel, count);
-            }
-        }
-        bands
-    }
-
-    fn fill_fixed<const N: usize>(&mut self, factors: &Factors<'_, N>, level: u32) {
-        let side = factors.surface().side();
-        let ids: Vec<ClusterId> = fixed_clusters(side, level).collect();
-        let per_texel = ids.len();
-        let bands = self.factors.par_chunks_mut(BAND * side as usize * per_texel * N);
-        bands.enumerate().for_each(|(band, into)| {
-            let mut block = BlockReceiver::new(factors.receiver());
-            for square in squares(side, band) {
-                block.visit(square, &ids, &mut |texel| {
-                    let into = &mut into[place_in_band(side, texel.texel()) * per_texel * N..][..per_texel * N];
-                    for (node, into) in into.chunks_exact_mut(N).enumerate() {
-                        into.iter_mut().zip(texel.factor(node)).for_each(|(into, factor)| *into = factor as f32);
-                    }
-                });
-            }
-        });
-    }
-
-    fn fill_adaptive<const N: usize>(&mut self, factors: &Factors<'_, N>, per_texel: usize, count: usize) {
         let (side, root) = (factors.surface().side(), root(factors.surface()));
-        let bands = self.clusters.par_chunks_mut(BAND * side as usize * per_texel);
-        let bands = bands.zip(self.factors.par_chunks_mut(BAND * side as usize * per_texel * N));
-        bands.enumerate().for_each(|(band, (ids, into))| {
+        let links = side as usize * side as usize * per_texel;
+        let (roots, clusters) = match choice {
+            LinkChoice::Fixed { level } => (fixed_clusters(side, level).collect(), 0),
+            LinkChoice::Adaptive { .. } => (vec![root], links),
+        };
+        // An unused link has the factor 0 and points to the root.
+        let mut bands = Self { clusters: vec![PackedCluster::new(root); clusters], factors: vec![0.0; links * N] };
+        let band = BAND * side as usize * per_texel;
+        let mut ids: Vec<&mut [PackedCluster]> = bands.clusters.chunks_mut(band).collect();
+        ids.resize_with((side as usize).div_ceil(BAND), Default::default);
+        let parts = ids.into_par_iter().zip(bands.factors.par_chunks_mut(band * N));
+        parts.enumerate().for_each(|(band, (ids, into))| {
             let mut block = BlockReceiver::new(factors.receiver());
             for square in squares(side, band) {
-                block.visit(square, &[root], &mut |texel| {
-                    let links = choice::adaptive(texel, count);
-                    let at = place_in_band(side, texel.texel());
-                    let ids = &mut ids[at * per_texel..][..per_texel];
-                    let into = into[at * per_texel * N..][..per_texel * N].chunks_exact_mut(N);
-                    for ((id, into), link) in ids.iter_mut().zip(into).zip(&links) {
-                        *id = PackedCluster::new(link.cluster);
-                        into.iter_mut().zip(link.factor).for_each(|(into, factor)| *into = factor as f32);
+                block.visit(square, &roots, &mut |texel| {
+                    let at = place_in_band(side, texel.texel()) * per_texel;
+                    let into = into[at * N..][..per_texel * N].chunks_exact_mut(N);
+                    let set = |into: &mut [f32], factor: [f64; N]| {
+                        into.iter_mut().zip(factor).for_each(|(into, factor)| *into = factor as f32);
+                    };
+                    match choice {
+                        LinkChoice::Fixed { .. } => {
+                            into.enumerate().for_each(|(node, into)| set(into, texel.factor(node)));
+                        }
+                        LinkChoice::Adaptive { count } => {
+                            let links = choice::adaptive(texel, count);
+                            for ((id, into), link) in ids[at..][..per_texel].iter_mut().zip(into).zip(&links) {
+                                *id = PackedCluster::new(link.cluster);
+                                set(into, link.factor);
+                            }
+                        }
                     }
                 });
             }
         });
+        bands
     }
 }
 

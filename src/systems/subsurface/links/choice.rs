@@ -1,6 +1,6 @@
 //! The choice of the clusters to which a texel links.
 
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::super::multipole::{ClusterId, TexelFactors, to_morton};
@@ -52,10 +52,6 @@ impl<const N: usize> Candidate<N> {
         Self { node, cluster: texel.cluster(node), factor: texel.factor(node) }
     }
 
-    fn is_texel(&self) -> bool {
-        self.cluster.level == 0
-    }
-
     /// Start of the cluster in Morton order.
     fn place(&self) -> u64 {
         let ClusterId { level, y, x } = self.cluster;
@@ -63,44 +59,36 @@ impl<const N: usize> Candidate<N> {
     }
 }
 
-/// Order of replacement: texels last; then by highest factor (for RGB, the sum of the three), higher level, lower row,
-/// lower column.
-impl<const N: usize> Ord for Candidate<N> {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let sum = |link: &Self| link.factor.iter().sum::<f64>();
-        let tie = |link: &Self| (link.cluster.level, Reverse(link.cluster.y), Reverse(link.cluster.x));
-        let divisible = other.is_texel().cmp(&self.is_texel());
-        divisible.then(sum(self).total_cmp(&sum(other))).then(tie(self).cmp(&tie(other)))
+/// Order of replacement: texels last; then by highest sum of factors, higher level, lower row, lower column.
+type Rank = (bool, i64, u32, Reverse<u32>, Reverse<u32>);
+
+impl<const N: usize> Candidate<N> {
+    fn rank(&self) -> Rank {
+        let ClusterId { level, y, x } = self.cluster;
+        // Integers in the order of the numbers, as in `f64::total_cmp`.
+        let bits = self.factor.iter().sum::<f64>().to_bits().cast_signed();
+        let sum = bits ^ ((bits >> 63).cast_unsigned() >> 1).cast_signed();
+        (level > 0, sum, level, Reverse(y), Reverse(x))
     }
 }
-
-impl<const N: usize> PartialOrd for Candidate<N> {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl<const N: usize> PartialEq for Candidate<N> {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl<const N: usize> Eq for Candidate<N> {}
 
 /// Chooses the links of a texel, beginning with the root of its tree: while `count` allows three more, the cluster with
 /// the highest factor is replaced by its children; texels are not replaced. Returns 1 + 3 k links in the order of the
 /// tree.
 pub(super) fn adaptive<const N: usize>(texel: &mut TexelFactors<'_, '_, N>, count: usize) -> Vec<Candidate<N>> {
-    let mut queue = BinaryHeap::with_capacity(count);
-    queue.push(Candidate::new(texel, 0));
+    let mut found = vec![Candidate::new(texel, 0)];
+    let mut queue = BinaryHeap::from([(found[0].rank(), 0)]);
     while queue.len() + 3 <= count {
-        let Some(top) = queue.peek() else { break };
-        let Some(first) = texel.children(top.node) else { break };
+        let Some(&(_, top)) = queue.peek() else { break };
+        let Some(first) = texel.children(found[top].node) else { break };
         queue.pop();
-        queue.extend((first..first + 4).map(|node| Candidate::new(texel, node)));
+        for node in first..first + 4 {
+            let child = Candidate::new(texel, node);
+            queue.push((child.rank(), found.len()));
+            found.push(child);
+        }
     }
-    let mut links = queue.into_vec();
+    let mut links: Vec<Candidate<N>> = queue.into_iter().map(|(_, at)| found[at]).collect();
     links.sort_unstable_by_key(Candidate::place);
     links
 }

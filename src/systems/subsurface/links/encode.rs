@@ -69,11 +69,8 @@ impl<'a> EncodedLinks<'a> {
 
     /// The number of textures.
     pub fn texture_count(&self) -> usize {
-        let channels = self.links.channels();
-        match self.links.choice() {
-            LinkChoice::Fixed { .. } => self.links.per_texel().div_ceil(4) * channels,
-            LinkChoice::Adaptive { .. } => self.links.per_texel() * if channels == 1 { 1 } else { 2 },
-        }
+        let is_fixed = matches!(self.links.choice(), LinkChoice::Fixed { .. });
+        link_textures(is_fixed, self.links.channels() == 3, self.links.per_texel())
     }
 
     /// A texture before rounding to its format. Panics if there is no such texture.
@@ -141,6 +138,11 @@ impl<'a> EncodedLinks<'a> {
         }
         lost
     }
+}
+
+/// The number of textures of `links` links per texel.
+pub(in crate::subsurface) fn link_textures(is_fixed: bool, rgb: bool, links: usize) -> usize {
+    if is_fixed { links.div_ceil(4) * if rgb { 3 } else { 1 } } else { links * if rgb { 2 } else { 1 } }
 }
 
 fn least_normal(format: Format) -> f64 {

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::super::multipole::{ClusterId, SurfaceMoments, check_values};
+use super::super::multipole::{ClusterId, SurfaceMoments, check_values, from_morton, to_morton};
 use super::Links;
 use crate::error::InputError;
 
@@ -20,7 +20,7 @@ pub enum MeanWeighting {
 #[derive(Clone, Debug, PartialEq)]
 pub struct IrradianceMeans {
     side: u32,
-    /// Means level by level, row by row.
+    /// Means level by level, in Morton order.
     levels: Vec<Vec<[f64; 3]>>,
 }
 
@@ -34,47 +34,30 @@ impl IrradianceMeans {
         let side = surface.side();
         let texels = side as usize * side as usize;
         check_values(irradiances.len(), texels)?;
-        let mut levels = vec![irradiances.to_vec()];
+        let of_texel = |(x, y): (u32, u32)| irradiances[y as usize * side as usize + x as usize];
+        let mut levels: Vec<Vec<[f64; 3]>> = vec![(0..texels).map(|k| of_texel(from_morton(k))).collect()];
         for level in 1..surface.level_count() {
-            let finer = &levels[level as usize - 1];
-            let width = side >> level;
-            let mean = |k: usize| {
-                let [x, y] = [k as u32 % width, k as u32 / width];
-                mean_of_children(surface, finer, ClusterId { level, y, x }, weighting)
+            let of_four = |(k, four): (usize, &[[f64; 3]])| {
+                let (area, mut sum) = (surface.area_at(level, k), [0.0; 3]);
+                for (child, value) in (4 * k..).zip(four) {
+                    let weight = match weighting {
+                        MeanWeighting::Area if area > 0.0 => surface.area_at(level - 1, child) / area,
+                        _ => 0.25,
+                    };
+                    sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += weight * value);
+                }
+                sum
             };
-            levels.push((0..width as usize * width as usize).into_par_iter().map(mean).collect());
+            let means = levels[level as usize - 1].par_chunks_exact(4).enumerate().map(of_four).collect();
+            levels.push(means);
         }
         Ok(Self { side, levels })
     }
 
     /// The mean irradiance of a cluster. Panics if there is no such cluster.
     pub fn of(&self, ClusterId { level, y, x }: ClusterId) -> [f64; 3] {
-        self.levels[level as usize][y as usize * (self.side >> level) as usize + x as usize]
+        self.levels[level as usize][to_morton(x, y)]
     }
-}
-
-fn mean_of_children(
-    surface: &SurfaceMoments,
-    finer: &[[f64; 3]],
-    cluster: ClusterId,
-    weighting: MeanWeighting,
-) -> [f64; 3] {
-    let ClusterId { level, y, x } = cluster;
-    let finer_width = (surface.side() >> (level - 1)) as usize;
-    let area = surface.cluster_area(cluster);
-    let mut sum = [0.0; 3];
-    for [down, right] in [[0, 0], [0, 1], [1, 0], [1, 1]] {
-        let [cx, cy] = [2 * x + right, 2 * y + down];
-        let weight = match weighting {
-            MeanWeighting::Area if area > 0.0 => {
-                surface.cluster_area(ClusterId { level: level - 1, y: cy, x: cx }) / area
-            }
-            _ => 0.25,
-        };
-        let value = finer[cy as usize * finer_width + cx as usize];
-        sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += weight * value);
-    }
-    sum
 }
 
 impl Links {

@@ -16,11 +16,11 @@ use bands::{LinkBands, PackedCluster, check, fixed_clusters};
 
 pub use bands::MAX_FACTORS;
 pub use choice::LinkChoice;
+pub(super) use encode::link_textures;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
 pub use gather::{IrradianceMeans, MeanWeighting};
 
-/// The channel whose dipole gives scalar factors: green. The means of three channels' factors would not be the factors
-/// of any dipole.
+/// The channel whose dipole gives scalar factors: green. Means of factors would not be the factors of any dipole.
 pub const SCALAR_CHANNEL: usize = 1;
 
 /// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the cluster's
@@ -83,8 +83,7 @@ impl Links {
         self.per_texel
     }
 
-    /// The links of the texel in column `x` and row `y`: clusters with a factor per channel. Panics if there is no such
-    /// texel.
+    /// The links of a texel: clusters with a factor per channel. Panics if there is no such texel.
     pub fn of(&self, [x, y]: [u32; 2]) -> impl ExactSizeIterator<Item = (ClusterId, &[f32])> {
         assert!(x < self.side && y < self.side, "there is no texel ({x}, {y})");
         let texel = y as usize * self.side as usize + x as usize;

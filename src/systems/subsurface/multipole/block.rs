@@ -88,8 +88,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         Self { receiver, nodes: Vec::new(), stamp: NEVER, present, divided: Vec::new() }
     }
 
-    /// Visits each texel of a square of at most level [`BLOCK_LEVEL`], with the factors of the given clusters, which
-    /// are the first nodes of the texel's tree.
+    /// Visits each texel of a square with the factors of the given clusters, the first nodes of the texel's tree.
     pub(in crate::subsurface) fn visit(
         &mut self,
         square: ClusterId,

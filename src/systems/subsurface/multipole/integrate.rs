@@ -30,15 +30,14 @@ impl<'a, const N: usize> Factors<'a, N> {
         self.surface
     }
 
-    /// F_iC per channel for the texel in column `x` and row `y` and a cluster. Panics if there is no such texel or
-    /// cluster.
+    /// F_iC per channel for a texel and a cluster. Panics if there is no such texel or cluster.
     pub fn factor(&self, texel: [u32; 2], cluster: ClusterId) -> [f64; N] {
         self.receiver().factor(texel, cluster)
     }
 
     /// A receiver that computes many factors; it is fastest for successive near texels.
     pub fn receiver(&self) -> Receiver<'_, N> {
-        Receiver { factors: self, cache: PieceCache::new() }
+        Receiver { factors: self, cache: PieceCache::default() }
     }
 }
 

@@ -48,8 +48,7 @@ pub(super) struct DistanceTable<const N: usize> {
     /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
     interpolation_error: f64,
     pub(super) tolerance: f64,
-    /// Radius in mm around the entry of light. In every channel, all light but the fraction `tolerance` leaves within
-    /// it.
+    /// Radius in mm around the entry of light within which all light but the fraction `tolerance` leaves.
     pub(super) layer: f64,
 }
 
@@ -179,16 +178,14 @@ impl<const N: usize> DistanceTable<N> {
         (0..N).all(fits).then(|| self.second_order(one, other, apart, interval, t, 1.0))
     }
 
-    /// Like [`Self::mean`], for pieces that cannot be divided further; R_d between mean points if they are much too
-    /// near.
+    /// Like [`Self::mean`], for pieces that cannot be divided further; R_d between mean points if they are too near.
     pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> [f64; N] {
         let apart = other.point - one.point;
         let (interval, t) = self.find(apart.length_squared());
         self.second_order(one, other, apart, interval, t, LOOSE)
     }
 
-    /// Computes the mean to second order if the sum of the squared sizes is at most the reach times `loose`; otherwise
-    /// returns R_d between the mean points.
+    /// The mean to second order if the squared sizes are within the reach times `loose`; else R_d between mean points.
     #[inline]
     fn second_order(
         &self,
@@ -210,8 +207,7 @@ impl<const N: usize> DistanceTable<N> {
         })
     }
 
-    /// The light of a cluster at a group of receivers: R_d times the cluster's area, by the receiver's offset from the
-    /// group's mean point. `None` if the two are too near.
+    /// The light of a cluster by a receiver's offset from the group's mean point. `None` if the two are too near.
     pub(super) fn expansion(&self, receivers: &Moments, cluster: &Moments) -> Option<Expansion<N>> {
         let apart = cluster.point - receivers.point;
         let squared = apart.length_squared();

@@ -137,8 +137,7 @@ impl OutlineSide {
         Self { start: a, along: (b - a).normalize_or_zero(), length: a.distance(b) }
     }
 
-    /// Parameter, in lengths of `vector`, at which a line from a point along `vector` is nearest to the side; NaN if
-    /// they are parallel.
+    /// Parameter at which a line from a point along `vector` is nearest to the side; NaN if they are parallel.
     fn nearest(&self, from: DVec3, vector: DVec3) -> f64 {
         let (offset, squared) = (self.start - from, vector.length_squared());
         let [along, across] = [self.along.dot(vector), offset.dot(vector)];
@@ -147,8 +146,7 @@ impl OutlineSide {
     }
 }
 
-/// Visits quadrature points of an interval with their weights, for an even function that is smooth at `scale` around 0,
-/// and elsewhere at the scale of the distance from 0.
+/// Visits quadrature points of an interval, for an even function that is smooth at `scale` around 0.
 fn graded(from: f64, to: f64, scale: f64, mut visit: impl FnMut(f64, f64)) {
     let mut from_to = |mut from: f64, to: f64| {
         while from < to {

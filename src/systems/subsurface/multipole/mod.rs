@@ -24,8 +24,8 @@ use crate::error::{InputError, ensure};
 
 pub(super) use block::{BLOCK_LEVEL, BlockReceiver, TexelFactors};
 pub use integrate::{Factors, Receiver};
-pub(super) use surface::to_morton;
 pub use surface::{ClusterId, SurfaceMoments};
+pub(super) use surface::{from_morton, to_morton};
 
 /// The least number of millimeters per unit of a model.
 pub const MIN_MM_PER_UNIT: f64 = 1e-30;

@@ -14,8 +14,7 @@ pub(super) struct Moments {
 /// Maximum of a piece's squared bounding radius divided by its squared size.
 pub(super) const BALL: f64 = 5.0;
 
-/// The squared size that decides whether a piece is far: the mean squared distance from its mean point, but at least
-/// the squared bounding radius divided by [`BALL`].
+/// The mean squared distance from the mean point, at least the squared bounding radius divided by [`BALL`].
 pub(super) fn size_squared(covariance: &Covariance, radius_squared: f64) -> f64 {
     covariance.trace().max(radius_squared / BALL)
 }
@@ -64,8 +63,7 @@ impl Covariance {
 }
 
 impl Moments {
-    /// Moments of the union of four pieces, without its size, which is set to 0. Pieces have equal weights if no piece
-    /// has an area.
+    /// Moments of the union of four pieces, without its size; with equal weights if no piece has an area.
     pub(super) fn together(parts: &[Self; 4]) -> Self {
         let area: f64 = parts.iter().map(|part| part.area).sum();
         let weight = |part: &Self| if area > 0.0 { part.area / area } else { 0.25 };

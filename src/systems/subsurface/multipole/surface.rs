@@ -78,7 +78,12 @@ impl SurfaceMoments {
 
     /// The area of a cluster, in mm^2. Panics if there is no such cluster.
     pub fn cluster_area(&self, cluster: ClusterId) -> f64 {
-        self.level(cluster.level)[to_morton(cluster.x, cluster.y)].area
+        self.area_at(cluster.level, to_morton(cluster.x, cluster.y))
+    }
+
+    /// The area of a cluster, by its Morton index in a level.
+    pub(in crate::subsurface) fn area_at(&self, level: u32, place: usize) -> f64 {
+        self.level(level)[place].area
     }
 
     /// Mean point, covariance (xx, yy, zz, xy, xz, yz) and squared size of a cluster, for tests.
@@ -148,7 +153,7 @@ pub(in crate::subsurface) fn to_morton(x: u32, y: u32) -> usize {
 }
 
 /// Column and row of a Morton index.
-pub(super) fn from_morton(place: usize) -> (u32, u32) {
+pub(in crate::subsurface) fn from_morton(place: usize) -> (u32, u32) {
     let gather = |value: u64| {
         let mut v = value & 0x5555_5555_5555_5555;
         v = (v | (v >> 1)) & 0x3333_3333_3333_3333;

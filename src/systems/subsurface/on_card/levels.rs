@@ -52,12 +52,12 @@ impl LeveledMap {
     }
 
     /// Bytes on the card: the map, its levels, and the row of levels.
-    pub(super) fn bytes(format: MapFormat, side: u32, layout: LinkLayout) -> [u64; 3] {
+    pub(super) fn bytes(format: MapFormat, side: u32, layout: LinkLayout) -> u64 {
         let texel = format.format().bytes() as u64;
         let base = u64::from(side) * u64::from(side) * texel;
-        let levels = (1..=side.ilog2()).map(|level| base >> (2 * level)).sum();
+        let levels: u64 = (0..=side.ilog2()).map(|level| base >> (2 * level)).sum();
         let row = if !format.is_leveled() && layout == LinkLayout::Adaptive { 2 * base } else { 0 };
-        [base, levels, row]
+        levels + row
     }
 
     pub(super) fn fill(&self, machine: &mut Machine) -> Result<(), CardError> {
@@ -87,10 +87,10 @@ impl LeveledMap {
         }
     }
 
-    /// The texture that pass 2 reads: one level for fixed links, all levels for adaptive links.
-    pub(super) fn read(&self, links: FixedLevel) -> ReadTexture {
+    /// The texture that pass 2 reads: one level for fixed links; if `None`, all levels for adaptive links.
+    pub(super) fn read(&self, level: Option<u32>) -> ReadTexture {
         let state = SamplerState::NEAREST_CLAMP;
-        match (&self.float, links) {
+        match (&self.float, level) {
             (None, Some(level)) => (self.map, SamplerState { max_mip_level: level as u8, ..state }),
             (None, None) => {
                 let lod_bias = (-0.5_f32).to_bits();
@@ -109,6 +109,3 @@ impl LeveledMap {
         (0..=self.side.ilog2()).map(|level| Ok(Texels::read_back(machine, self.level(level))?)).collect()
     }
 }
-
-/// The level of fixed links; `None` for adaptive links.
-pub(super) type FixedLevel = Option<u32>;

@@ -3,7 +3,7 @@
 use super::options::FloatTexels;
 use crate::card::{CardError, Texels};
 use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
-use crate::subsurface::links::{EncodedLinks, LinkChoice, Links, MeanWeighting};
+use crate::subsurface::links::{EncodedLinks, LinkChoice, Links, MeanWeighting, link_textures};
 use crate::subsurface::multipole::SurfaceMoments;
 
 /// The links of all texels as textures, before rounding.
@@ -39,12 +39,7 @@ impl LinkTextures {
         count: usize,
         textures: Vec<Texels>,
     ) -> Result<Self, CardError> {
-        let expected = match (level, rgb) {
-            (Some(_), false) => count.div_ceil(4),
-            (Some(_), true) => 3 * count.div_ceil(4),
-            (None, rgb) => count * if rgb { 2 } else { 1 },
-        };
-        CardError::check_size("textures of links", expected, textures.len())?;
+        CardError::check_size("textures of links", link_textures(level.is_some(), rgb, count), textures.len())?;
         for texture in &textures {
             CardError::check_size("texels of a texture of links", side as usize * side as usize, texture.texels.len())?;
         }
@@ -83,8 +78,7 @@ impl LinkTextures {
         texels * count as u64 * format.format().bytes() as u64
     }
 
-    /// Combines textures from `first` on as tiles of one texture, row by row, `tiles` along an edge; tiles beyond
-    /// `count` textures are 0.
+    /// Combines textures from `first` on as tiles of one texture, row by row; tiles beyond `count` are 0.
     pub(super) fn tiled(&self, first: usize, count: usize, tiles: usize, map: MapTexture) -> Texels {
         if tiles == 1 {
             return self.on_card(first, map);

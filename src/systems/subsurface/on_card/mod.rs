@@ -7,7 +7,6 @@ mod gather;
 mod levels;
 mod light;
 mod link_textures;
-mod memory;
 mod model;
 mod options;
 mod radiosity_map;
@@ -23,7 +22,6 @@ use refsim::machine::Executor;
 pub use gather::GatherProgram;
 pub use light::Light;
 pub use link_textures::LinkTextures;
-pub use memory::CardMemory;
 pub use model::CardModel;
 pub use options::{FloatTexels, LightStage, MapFormat, SubsurfaceCardOptions};
 pub use time::{PassEvent, PassKind, PassTime, pass_times};
@@ -45,7 +43,7 @@ const MAX_TEXELS: u32 = 16384;
 pub struct SubsurfaceCard {
     options: SubsurfaceCardOptions,
     model: CardModel,
-    memory: CardMemory,
+    memory: [u64; 2],
     map: LeveledMap,
     light: LightPass,
     gather: Gather,
@@ -71,7 +69,7 @@ impl SubsurfaceCard {
         Self::fits(&profile, links, &options)?;
         links.check(options.links)?;
         let programs = gather::programs(&profile, links, &options)?;
-        let memory = CardMemory::new(links, &options, &programs);
+        let memory = memory(links, &options, &programs);
         let mut machine = executor.into().machine(profile)?;
         let map = LeveledMap::new(&mut machine, options.map, model.side(), links.layout())?;
         let light = LightPass::new(&mut machine, &model, options.light, options.map, eta)?;
@@ -106,9 +104,9 @@ impl SubsurfaceCard {
         &self.options
     }
 
-    /// Memory of the card that the passes use.
-    pub fn memory(&self) -> &CardMemory {
-        &self.memory
+    /// Bytes of textures and targets, without the picture: of all, and of links alone.
+    pub fn memory(&self) -> [u64; 2] {
+        self.memory
     }
 
     /// The programs of pass 2, one per pass over links.
@@ -200,4 +198,12 @@ impl SubsurfaceCard {
             log.extend(self.view.display.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));
         }
     }
+}
+
+fn memory(links: &LinkTextures, options: &SubsurfaceCardOptions, programs: &[GatherProgram]) -> [u64; 2] {
+    let texels = u64::from(links.side) * u64::from(links.side);
+    let geometry = if options.light == LightStage::Texels { 2 * 16 * texels } else { 0 };
+    let scattered = texels * options.scattered.format().bytes() as u64 * programs.len().min(2) as u64;
+    let links_alone = links.bytes(options.links, programs.iter().map(GatherProgram::link_textures).sum());
+    [links_alone + LeveledMap::bytes(options.map, links.side, links.layout()) + scattered + geometry, links_alone]
 }

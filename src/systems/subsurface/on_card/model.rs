@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::atlas::{Atlas, DrawnFace, FacePlace};
+use crate::atlas::{Atlas, DrawnFace, DrawnVertex};
 use crate::card::Texels;
 use crate::geom::UnitFrame;
 
@@ -13,29 +13,8 @@ pub struct CardModel {
     frame: UnitFrame,
     pub(super) positions: Texels,
     pub(super) normals: Texels,
-    pub(super) faces: Vec<CardFace>,
-}
-
-/// A face: its rectangle in the atlas for pass 1, and its triangle on the surface for pass 3.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CardFace {
-    /// The rectangle's corners: the face's corners a, b and c, and the middle m of b and c.
-    pub(super) rectangle: [CardVertex<[f32; 2]>; 4],
-    /// The face's corners with two places each; the component-wise minimum of interpolated places is a point's place in
-    /// the atlas.
-    pub(super) whole: [CardVertex<[f32; 4]>; 3],
-    /// Bounds of reads that stay on the face: half a texel inside the rectangle.
-    pub(super) bounds: [f32; 4],
-    /// The area of the face's texels divided by the mean texel area.
-    pub(super) area: f32,
-}
-
-/// A vertex in the card's units, with its place in the atlas in texels.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CardVertex<P> {
-    pub(super) position: [f32; 3],
-    pub(super) normal: [f32; 3],
-    pub(super) at: P,
+    /// Faces, each with the area of its texels divided by the mean texel area.
+    pub(super) faces: Vec<(DrawnFace, f32)>,
 }
 
 impl CardModel {
@@ -57,23 +36,8 @@ impl CardModel {
             let [nx, ny, nz] = narrowed(texel(x, y).normal);
             [nx, ny, nz, 0.0]
         });
-        let vertex = |position: DVec3, normal: DVec3| (narrowed(frame.of_scene(position)), narrowed(normal));
-        let face = |(face, (drawn, place)): (u32, (&DrawnFace, &FacePlace))| {
-            let [[a, b, m], [_, _, c]] = drawn.triangles;
-            let rectangle = [a, b, c, m].map(|corner| {
-                let (position, normal) = vertex(corner.position, corner.normal);
-                CardVertex { position, normal, at: corner.at.map(|at| at as f32) }
-            });
-            let whole = atlas.drawn_whole(face).vertices.map(|corner| {
-                let (position, normal) = vertex(corner.position, corner.normal);
-                let [[x0, y0], [x1, y1]] = corner.at.map(|pair| pair.map(|at| at as f32));
-                CardVertex { position, normal, at: [x0, y0, x1, y1] }
-            });
-            let bounds = drawn.bounds.map(|bound| bound as f32);
-            let area = factor(texel(place.x as usize, place.y as usize).area);
-            CardFace { rectangle, whole, bounds, area }
-        };
-        let faces = (0..).zip(drawn.iter().zip(atlas.places())).map(face).collect();
+        let areas = atlas.places().iter().map(|place| factor(texel(place.x as usize, place.y as usize).area));
+        let faces = drawn.into_iter().zip(areas).collect();
         Self { side, frame, positions, normals, faces }
     }
 
@@ -86,11 +50,13 @@ impl CardModel {
     pub(super) fn frame(&self) -> &UnitFrame {
         &self.frame
     }
-}
 
-impl CardFace {
-    /// The two triangles in the atlas, a b m and a m c, as indices into [`Self::rectangle`].
-    pub(super) const TRIANGLES: [usize; 6] = [0, 1, 3, 0, 3, 2];
+    /// Position and normal of a vertex in the card's units, as bits.
+    pub(super) fn attributes<P>(&self, vertex: &DrawnVertex<P>) -> [[u32; 4]; 2] {
+        let [x, y, z] = narrowed(self.frame.of_scene(vertex.position));
+        let [nx, ny, nz] = narrowed(vertex.normal);
+        [[x, y, z, 1.0], [nx, ny, nz, 0.0]].map(|vector| vector.map(f32::to_bits))
+    }
 }
 
 fn narrowed(vector: DVec3) -> [f32; 3] {

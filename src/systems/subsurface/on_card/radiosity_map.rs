@@ -7,7 +7,7 @@ use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::{SamplerState, TexelFormat};
 
 use super::light::{CardLight, CardLights, LEAST_LENGTH, LEAST_SQUARE, colored};
-use super::model::{CardFace, CardModel};
+use super::model::CardModel;
 use super::options::{LightStage, MapFormat};
 use crate::card::{
     Attribute, CardError, FullScreenPass, PingPong, ReadTexture, Texels, constants, nearest, vertex_streams,
@@ -110,8 +110,7 @@ impl LightPass {
         Ok(())
     }
 
-    /// eta^2 - 1, eta^2, eta, and the smallest squared distance to a light. An eta of 1 is slightly raised, because the
-    /// program would divide by 0 for light along the surface.
+    /// eta^2 - 1 (above 0, by which the program divides), eta^2, eta, and the smallest squared distance to a light.
     fn refraction(&self) -> [f32; 4] {
         let square = self.eta * self.eta;
         [((square - 1.0) as f32).max(1e-12), square as f32, self.eta as f32, LEAST_SQUARE]
@@ -190,10 +189,10 @@ impl LightPass {
         let (scale, largest) = (self.format.scale(), f64::from(self.format.largest()));
         let side = self.side as usize;
         let mut texels = Texels::from_fn([side; 2], |_, _| [0.0; 4]);
-        for face in &model.faces {
+        for (face, area) in &model.faces {
             let [x0, y0, x1, y1] = face.bounds.map(|bound| bound as usize);
             for at in (y0..=y1).flat_map(|row| row * side + x0..=row * side + x1) {
-                let [r, g, b] = irradiances[at].map(|value| (value * f64::from(face.area) * scale).min(largest) as f32);
+                let [r, g, b] = irradiances[at].map(|value| (value * f64::from(*area) * scale).min(largest) as f32);
                 texels.texels[at] = [r, g, b, 0.0];
             }
         }
@@ -227,14 +226,15 @@ impl RectangleVertices {
         let side = model.side() as f32;
         let mut attributes = [(); 3].map(|()| Vec::with_capacity(4 * model.faces.len()));
         let mut indices = Vec::with_capacity(6 * model.faces.len());
-        for face in &model.faces {
+        for (face, area) in &model.faces {
             let first = attributes[0].len() as u32;
-            indices.extend(CardFace::TRIANGLES.map(|corner| first + corner as u32));
-            for vertex in &face.rectangle {
-                let ([px, py, pz], [nx, ny, nz], [x, y]) = (vertex.position, vertex.normal, vertex.at);
-                let place = [2.0 * x / side - 1.0, 1.0 - 2.0 * y / side, face.area, 0.0];
-                let of_vertex = [[px, py, pz, 1.0], [nx, ny, nz, 0.0], place];
-                attributes.iter_mut().zip(of_vertex).for_each(|(into, value)| into.push(value.map(f32::to_bits)));
+            // The triangles a b m and a m c.
+            indices.extend([0, 1, 3, 0, 3, 2].map(|corner| first + corner));
+            let [[a, b, m], [_, _, c]] = face.triangles;
+            for vertex in [a, b, c, m] {
+                let ([position, normal], [x, y]) = (model.attributes(&vertex), vertex.at.map(|at| at as f32));
+                let place = [2.0 * x / side - 1.0, 1.0 - 2.0 * y / side, *area, 0.0].map(f32::to_bits);
+                attributes.iter_mut().zip([position, normal, place]).for_each(|(into, value)| into.push(value));
             }
         }
         Self { attributes, indices }

@@ -34,24 +34,13 @@ pub struct PassEvent {
     pub event: Event,
 }
 
-/// The modelled time of a pass: draws, generated levels, clears and changes of state in sequence; uploads and
-/// read-backs are not counted.
+/// The modelled time of a pass, in sequence, without uploads and read-backs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassTime {
-    /// Number of draws.
-    pub draws: usize,
     /// The pass's time.
     pub time: Picoseconds,
     /// The bottleneck of the longest draw; `None` if there are no draws.
     pub bottleneck: Option<Bottleneck>,
-    /// Clocks of the texture units.
-    pub textures: u64,
-    /// Clocks of the arithmetic units.
-    pub arithmetic: u64,
-    /// Clocks of memory accesses.
-    pub memory: u64,
-    /// Bytes between the card and its memory.
-    pub bytes: u64,
 }
 
 /// The times of a log's passes, in the order of [`PassKind::ALL`].
@@ -63,13 +52,8 @@ pub fn pass_times(profile: &Profile, log: &[PassEvent]) -> Result<[PassTime; 4],
         for PassEvent { event, .. } in log.iter().filter(|event| event.pass == kind) {
             match event {
                 Event::Draw(draw) => {
-                    let (cost, clocks) = (model.draw(draw), model.clocks(draw));
-                    time.draws += 1;
+                    let cost = model.draw(draw);
                     time.time += cost.total;
-                    time.textures += clocks.textures.0;
-                    time.arithmetic += clocks.arithmetic.0;
-                    time.memory += clocks.memory.0;
-                    time.bytes += clocks.traffic.total();
                     if cost.total >= longest {
                         (longest, time.bottleneck) = (cost.total, Some(cost.bottleneck));
                     }

@@ -63,11 +63,14 @@ pub(super) struct ViewPass {
 impl ViewPass {
     pub(super) fn new(machine: Machine, model: &CardModel, eta: f64) -> Self {
         let (mut positions, mut beside) = (Vec::new(), [const { Vec::new() }; 3]);
-        for (face, vertex) in model.faces.iter().flat_map(|face| face.whole.iter().map(move |vertex| (face, vertex))) {
-            let ([px, py, pz], [nx, ny, nz]) = (vertex.position, vertex.normal);
-            positions.push([px, py, pz, 1.0].map(f32::to_bits));
-            let of_vertex = [[nx, ny, nz, 0.0], vertex.at, face.bounds];
-            beside.iter_mut().zip(of_vertex).for_each(|(into, value)| into.push(value.map(f32::to_bits)));
+        for (face, vertex) in
+            model.faces.iter().flat_map(|(face, _)| face.whole.iter().map(move |vertex| (face, vertex)))
+        {
+            let ([position, normal], [[x0, y0], [x1, y1]]) = (model.attributes(vertex), vertex.at);
+            let places = [x0, y0, x1, y1].map(|at| (at as f32).to_bits());
+            let bounds = face.bounds.map(|bound| (bound as f32).to_bits());
+            positions.push(position);
+            beside.iter_mut().zip([normal, places, bounds]).for_each(|(into, value)| into.push(value));
         }
         Self { eta, display: MeshDisplay::in_frame(machine, *model.frame(), positions), beside, table: None }
     }

@@ -11,19 +11,15 @@ use crossbar_systems::all_frequency::shade::{Multiplies, TransferredRadiance};
 use crossbar_systems::transfer::synthetic::{hills, signal_at};
 use crossbar_systems::transfer::{Tangents, Vertices};
 use glam::DVec3;
-use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
 use crate::card::{MeshView, SeenPixel, Texels, seen_pixels};
+use crate::device;
 use crate::geom::Mesh;
 use crate::scene::Camera;
 use crate::scene::built::ground::ground;
-
-fn device(name: &str) -> Profile {
-    Profile::named(name).expect("a device")
-}
 
 /// Hills with synthetic transferred radiance, with the number of terms of their reflectance.
 struct FactoredHills {

@@ -6,10 +6,10 @@ use crossbar_systems::all_frequency::kernels::{
     MapFilter, ProductKernel, SetLayout, TransferredVertexKernel, ViewNumbers, programs,
 };
 use refsim::check::check;
-use refsim::device::Profile;
 use refsim::isa::Version;
 
 use crate::card::{WrittenKernel, checked};
+use crate::device;
 
 #[test]
 fn every_number_has_a_place_of_its_own() {
@@ -33,10 +33,6 @@ fn ten_terms_of_three_channels_fill_eight_sets() {
     assert_eq!(layout(ViewNumbers::Coordinates).sets(), 8);
     assert_eq!(layout(ViewNumbers::Vector).sets(), 9);
     assert_eq!(SetLayout { channels: 1, ..layout(ViewNumbers::Vector) }.sets(), 4);
-}
-
-fn device(name: &str) -> Profile {
-    Profile::named(name).expect("a device")
 }
 
 #[test]

@@ -5,8 +5,9 @@ use crossbar_systems::bi_scale::on_card::volume_image;
 use crossbar_systems::bi_scale::texture::GridSamples;
 use refsim::texture::{Image, Lod, SampleRules, TexelFormat, sample, touched};
 
-use super::{FLOATS, device, texture};
+use super::{FLOATS, texture};
 use crate::card::BILINEAR;
+use crate::device;
 use crate::geom::random::CounterRng;
 
 /// Texture coordinates of a position in a block, computed as in the program.

@@ -10,8 +10,9 @@ use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
-use super::{FLOATS, device, texture};
+use super::{FLOATS, texture};
 use crate::card::{MeshView, Texels, seen_pixels};
+use crate::device;
 use crate::geom::random::CounterRng;
 use crate::scene::Camera;
 

@@ -6,7 +6,7 @@ use crossbar_systems::bi_scale::on_card::{GatherCard, LightFormat};
 use crossbar_systems::bi_scale::product::Gather;
 use refsim::machine::ExecutorKind;
 
-use super::device;
+use crate::device;
 use crate::geom::random::CounterRng;
 
 /// A matrix of multiples of 1/4 in runs, so that biclusters have many rows; some rows and columns are empty.

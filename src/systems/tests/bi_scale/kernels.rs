@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use crossbar_systems::bi_scale::kernels::{BlockEdges, BlockGrid, DisplayKernel, ListSumKernel, LocalLayout, programs};
 use refsim::isa::Version;
 
-use super::device;
 use crate::card::{WrittenKernel, checked};
+use crate::device;
 
 #[test]
 fn borders_show_the_opposite_edge() {

@@ -9,14 +9,9 @@ mod texture;
 
 use crossbar_systems::bi_scale::directions::LocalDirections;
 use crossbar_systems::bi_scale::texture::BidirectionalTexture;
-use refsim::device::Profile;
 use refsim::texture::TexelFormat;
 
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
-
-fn device(name: &str) -> Profile {
-    Profile::named(name).expect("a device")
-}
 
 fn directions(side: usize) -> LocalDirections {
     LocalDirections::new(side).expect("directions")

@@ -9,7 +9,7 @@ use crossbar_systems::cpca::on_card::{
 use crossbar_systems::transfer::brdf::ExitBasis;
 use crossbar_systems::transfer::synthetic::{hills, signal_at};
 use crossbar_systems::transfer::{Tangents, Vertices};
-use refsim::device::{MadMode, Profile, Rules};
+use refsim::device::{MadMode, Rules};
 use refsim::exec::scalar::VertexProgram;
 use refsim::exec::{CheckedProgram, Constants, NoObserver};
 use refsim::machine::{DrawCall, DrawWatcher, Executor, ExecutorKind, Machine, MachineError, VertexSource};
@@ -17,6 +17,7 @@ use refsim::num::{Format, ops};
 use refsim::texture::TexelFormat;
 
 use crate::card::{CardError, MeshView};
+use crate::device;
 use crate::scene::Camera;
 use crate::sphere::{HarmonicLight, ParabolicMap};
 
@@ -155,10 +156,6 @@ fn chunks_are_the_overdraw() {
         assert_eq!(drawn as u64, 3 * found.overdraw(&hills.clustering, hills.vertices.triangles()));
         assert_eq!(found.count() < 12, superclusters);
     }
-}
-
-fn device(name: &str) -> Profile {
-    Profile::named(name).expect("a device")
 }
 
 /// Compressed transfer of hills: diffuse for light of 16 coefficients, or glossy with a number of functions for light

@@ -1,14 +1,10 @@
 //! Vertex and pixel programs on the devices that support them.
 
 use crossbar_systems::cpca::kernels::{VertexKernel, VertexShading, programs};
-use refsim::device::Profile;
 use refsim::isa::Version;
 
 use crate::card::{WrittenKernel, checked};
-
-fn device(name: &str) -> Profile {
-    Profile::named(name).expect("a device")
-}
+use crate::device;
 
 #[test]
 fn every_program_runs_on_the_radeons() {
