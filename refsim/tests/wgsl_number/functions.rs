@@ -2,7 +2,7 @@
 
 use refsim::exec::gpu::Gpu;
 use refsim::exec::wgsl::number::format_words;
-use refsim::num::{DotOrder, Format, from_parts, ops};
+use refsim::num::{DotOrder, Format, FormatKind, from_parts, ops};
 use std::sync::Arc;
 
 use crate::device::text;
@@ -47,9 +47,13 @@ impl Call {
                 let [high, low] = [words.bits() >> words.below(32), words.bits()];
                 operands[0] = low;
                 operands[1] = if words.coin() { 0 } else { high };
-                // With a sticky bit, the unit must be so small that the result is determined.
                 operands[2] = words.below(2) as u32;
-                operands[3] = (words.around(150) - 50).cast_unsigned();
+                let exponent = match all[places[0]].kind {
+                    // Near the unit, where wrapping keeps the last bits.
+                    FormatKind::Fixed { frac_bits, .. } if words.coin() => words.around(3) - i32::from(frac_bits),
+                    _ => words.around(150) - 50,
+                };
+                operands[3] = exponent.cast_unsigned();
             }
             8 => operands[2] = words.below(4) as u32,
             _ => {}
