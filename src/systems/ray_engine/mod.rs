@@ -38,7 +38,7 @@ mod vertex_crossbar;
 
 pub use answer::{Answer, EngineError};
 pub use bits_left::BitsLeft;
-pub use crossbar::{Crossbar, MakeObserver, ResidentCrossbar};
+pub use crossbar::{Crossbar, Recording, ResidentCrossbar};
 pub use kernel::{EdgeRule, Form, Kernel, RayTexels};
 pub use rays::RayBatch;
 pub use vertex_crossbar::VertexCrossbar;
