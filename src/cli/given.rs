@@ -43,6 +43,24 @@ pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result
     Ok(())
 }
 
+/// Rejects an output file that is also one of `others`, which the command reads or writes. Fails with
+/// [`Problem::Usage`].
+pub(super) fn refuse_overwriting<'a>(
+    option: &str,
+    output: Option<&Path>,
+    others: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), Problem> {
+    let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    // Devices such as /dev/null can be written twice.
+    let is_same = |output: &Path, other: &Path| whole(other) == whole(output) && (output.is_file() || !output.exists());
+    match output.and_then(|output| others.into_iter().find(|other| is_same(output, other))) {
+        Some(other) => {
+            Err(Problem::usage(format!("`{option}` would overwrite {}", other.display()), "give another file"))
+        }
+        None => Ok(()),
+    }
+}
+
 /// Rejects a word that is neither the name of a `what` nor a file; a path without a dot or a folder counts as a name.
 /// Fails with [`Problem::Usage`], which lists the names.
 pub(super) fn require_file(path: &Path, what: &str, names: &[&str], ending: &str) -> Result<(), Problem> {

@@ -100,6 +100,7 @@ struct Answer {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    given::refuse_overwriting("--out", Some(&args.out), [args.mesh.as_path(), &args.rays])?;
     let way = choose(args)?;
     let mesh = model_file::mesh(&args.mesh)?;
     let rays = load_rays(&args.rays)?;

@@ -10,7 +10,7 @@ use crate::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
-use crate::cli::{Problem, ProgressBar};
+use crate::cli::{Problem, ProgressBar, given};
 use crate::error::InputError;
 use crate::report::{Cell, Findings, Table};
 
@@ -40,6 +40,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
+    given::refuse_overwriting("--out", args.out.as_deref(), [args.file.as_path()])?;
     let name = args.file.display();
     let file = load(&args.file)?;
     let matrix = file.matrix.as_ref().ok_or_else(|| {
