@@ -115,7 +115,8 @@ impl HeightField {
 
     /// The difference between the highest and the lowest height.
     pub fn depth(&self) -> f64 {
-        -self.bottom
+        // Not -0 for a flat patch.
+        0.0 - self.bottom
     }
 
     /// The height of a texel of the repeated patch.
