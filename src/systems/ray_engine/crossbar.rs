@@ -132,9 +132,8 @@ impl Crossbar {
         cull: bool,
     ) -> Result<Answer, EngineError> {
         let mut card = self.pass_card(mesh, sides, cull)?;
-        let drawn = card.draw(0, mesh, triangles, rays)?;
-        let (hits, _) = card.read_back(&drawn, rays, true)?;
-        Ok(Answer { hits: rounded(hits), events: drawn.events, kernel: card.kernel.name, log: Vec::new() })
+        let (hits, _, events) = card.test(0, mesh, triangles, rays, true)?;
+        Ok(Answer { hits: rounded(hits), events, kernel: card.kernel.name, log: Vec::new() })
     }
 
     pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, cull: bool) -> Result<PassCard, EngineError> {
