@@ -12,7 +12,7 @@ use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
 use refsim::isa::{OpcodeClass, Program, RegisterFile};
-use refsim::machine::ExecutorKind;
+use refsim::machine::{ExecutorKind, Machine};
 
 /// Random triangles, and rays through their interiors.
 fn interior_hits(count: u64) -> impl Iterator<Item = (DVec3, DVec3, [DVec3; 3])> {
