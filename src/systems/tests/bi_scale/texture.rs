@@ -1,7 +1,7 @@
 //! Patches of heights, textures of samples, and the samples around a position.
 
 use approx::assert_abs_diff_eq;
-use crossbar_systems::bi_scale::texture::{BidirectionalTexture, GridSamples, HeightField, PatchKind, TextureSampling};
+use crossbar_systems::bi_scale::texture::{BidirectionalTexture, GridSamples, HeightField, PatchKind};
 use glam::DVec3;
 
 use super::directions;
