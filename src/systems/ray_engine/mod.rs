@@ -7,8 +7,8 @@
 //! - [`paper`]: equations (1) to (8) in plain f64; read it first;
 //! - 3.3, 4.2, 5.3: [`Crossbar`], every ray against every triangle, in buckets (`crossbar`, `bundle`, `card`);
 //!   [`ResidentCrossbar`] draws again without uploads; 3.4: [`intersect_in_vertices`], in the vertex units;
-//! - 4.1, 4.3: [`kernels`] and their choice ([`Kernel`]), including kernels without leaks at edges ([`EdgeRule`],
-//!   `sorted`); [`RayBatch`], rays as texels; scaling of scenes to a format's range (`range`, `reach`, `units`), and
+//! - 4.1, 4.3: [`kernels`] and their choice ([`Kernel`]), including kernels without leaks at edges
+//!   ([`EdgeRule`]); [`RayBatch`], rays as texels; scaling of scenes to a format's range (`range`, `reach`, `units`), and
 //!   lost triangle normals ([`BitsLeft`]);
 //! - 5.2, 5.3, 6.2, 6.3: [`engine`], with the 5-D [`ray_tree`], passes (`pass`) and culling in the vertex program
 //!   (`cull`);
@@ -32,7 +32,6 @@ mod range;
 pub mod ray_tree;
 mod rays;
 mod reach;
-mod sorted;
 mod units;
 mod vertex_crossbar;
 

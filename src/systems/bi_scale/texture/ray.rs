@@ -80,7 +80,7 @@ impl TexelRay {
         let (patch, [dx, dy]) = (field.cell(span.cell), self.step);
         let inside = within(span.cell, self.place(span.from));
         let [along, across] = patch.slope(inside);
-        Some([from - patch.height(inside), self.rise - dx * along - dy * across, -(dx * dy * patch.twist())])
+        Some([from - patch.height(inside), self.rise - dx * along - dy * across, -(dx * dy * patch.twist)])
     }
 
     /// The first point at which the ray reaches a cell's surface from above.
