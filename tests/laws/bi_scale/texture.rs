@@ -106,6 +106,7 @@ proptest! {
         let patch = patch(heights, glossy());
         let place = [u, v].map(|at| f64::from(at) / 64.0);
         let expected = patch.response(place, view, light);
+        prop_assert!(expected.iter().all(|value| value.is_finite() && *value >= 0.0), "{expected:?}");
         for [right, down] in [[1.0, 0.0], [0.0, -1.0], [-3.0, 5.0]] {
             prop_assert_eq!(patch.response([place[0] + right, place[1] + down], view, light), expected);
         }
