@@ -49,8 +49,8 @@ pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result
 /// Options that name a file to write; `--out` may also name a folder, which its command checks.
 const WRITTEN: [&str; 4] = ["out", "perfetto", "sheet", "matrix"];
 
-/// Rejects a file to be written whose folder is not writable, before long work, and one that is also an input. Fails
-/// with a [`Problem`].
+/// Rejects a file to be written whose folder is not writable, before long work, and one that another argument names,
+/// too. Fails with a [`Problem`].
 pub(super) fn refuse_places(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
     let given = |arg: &&Arg| matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine);
@@ -60,14 +60,16 @@ pub(super) fn refuse_places(program: &Command, matches: &ArgMatches) -> Result<(
         values.map(|value| Path::new(value).canonicalize().unwrap_or_else(|_| value.into())).collect::<Vec<PathBuf>>()
     };
     let is_folder = |arg: &Arg| arg.get_value_names().into_iter().flatten().any(|name| name == "DIR");
-    let (written, read): (Vec<&Arg>, Vec<&Arg>) =
-        command.get_arguments().filter(given).partition(|arg| WRITTEN.contains(&arg.get_id().as_str()));
-    for arg in written.into_iter().filter(|arg| !is_folder(arg)) {
+    let named: Vec<&Arg> = command.get_arguments().filter(given).collect();
+    let written = named.iter().filter(|arg| WRITTEN.contains(&arg.get_id().as_str()) && !is_folder(arg));
+    for arg in written {
         let option = arg.get_long().unwrap_or_default();
+        let others = || named.iter().filter(|other| other.get_id() != arg.get_id());
         // Devices and pipes are written to directly.
         for path in paths(arg).into_iter().filter(|path| path.is_file() || !path.exists()) {
-            if path.is_file() && read.iter().any(|read| paths(read).contains(&path)) {
-                return Err(Problem::usage(format!("`--{option}` would overwrite an input"), "give another file"));
+            if others().any(|other| paths(other).contains(&path)) {
+                let message = format!("`--{option}` names a file that the command also reads or writes");
+                return Err(Problem::usage(message, "give another file"));
             }
             let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
             require_writable(folder)?;

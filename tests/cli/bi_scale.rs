@@ -183,3 +183,21 @@ fn creases_keep_vertices_apart() {
     document(&format!("{render} --crease 30"));
     refused_line(&render);
 }
+
+/// A file that a command reads, or has written, is not overwritten by another output.
+#[test]
+fn inputs_are_not_overwritten() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [file, texture] = ["b.npz", "b.npy"].map(|name| place(folder.path(), name));
+    fs::copy(BICLUSTERS, &file).expect("copied");
+    for command in [
+        format!("bi-scale show {file} --matrix {file}"),
+        format!("bi-scale bicluster {file} --out {file}"),
+        format!("bi-scale texture plain --texels 1 --directions 1 --views 1 --out {texture} --sheet {texture}"),
+        format!("intersect --mesh docs/examples/teapot.obj --rays {file} --out {file}"),
+        format!("timeline {file} --perfetto {file}"),
+    ] {
+        assert!(refused_line(&command).contains("also reads or writes"), "{command}");
+    }
+    assert_eq!(fs::read(&file).expect("kept"), fs::read(BICLUSTERS).expect("an example"));
+}

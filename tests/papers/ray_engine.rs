@@ -5,14 +5,14 @@ use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::ray_engine::paper::intersect;
-use crossbar::ray_engine::{Answer, Crossbar, Form, Kernel, RayBatch, VertexCrossbar, kernels};
+use crossbar::ray_engine::{Answer, Crossbar, Form, Kernel, RayBatch, intersect_in_vertices, kernels};
 use crossbar::scene::Camera;
 use glam::DVec3;
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
 use refsim::isa::{OpcodeClass, Program, RegisterFile};
-use refsim::machine::ExecutorKind;
+use refsim::machine::{ExecutorKind, Machine};
 
 /// Random triangles, and rays through their interiors.
 fn interior_hits(count: u64) -> impl Iterator<Item = (DVec3, DVec3, [DVec3; 3])> {
@@ -136,7 +136,8 @@ fn the_vertex_units_find_what_the_pixel_pipelines_find() {
     let camera = Camera::teapot(16, 16).expect("a camera of any size");
     let rays = RayBatch::new(16, 16, camera.rays()).expect("a ray a pixel");
     let profile = |name| Profile::named(name).expect("a profile");
-    let vertex = VertexCrossbar::new(profile("nv20"), ExecutorKind::Batch).intersect(&mesh, &rays).expect("it runs");
+    let mut machine = Machine::new(profile("nv20"), ExecutorKind::Batch);
+    let vertex = intersect_in_vertices(&mut machine, &mesh, &rays).expect("it runs");
     let pixel = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch)
         .intersect(&mesh, &rays, Sides::Front)
         .expect("it runs");

@@ -11,13 +11,12 @@ use super::file::angle;
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, load_bi_scale};
 use crate::bi_scale::on_card::corner_coordinates;
-use crate::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_texture};
+use crate::bi_scale::texture::{PatchKind, load_bidirectional_texture};
 use crate::cli::model_name::Model;
 use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::model::{materials_of, model_of};
 use crate::cli::transfer::picture::{OnCardArgs, PictureArgs};
 use crate::cli::{Problem, given};
-use crate::error::InputError;
 use crate::names::did_you_mean;
 use crate::options::number;
 use crate::scene::Material;
@@ -105,8 +104,7 @@ impl TextureArgs {
             .into());
         };
         let (model, vertices, _) = model_of(path, Some(meaning.mesh), name, self.crease)?;
-        let light = LocalDirections::new(meaning.side as usize)
-            .map_err(|error| Problem::usage(error.to_string(), "give another file"))?;
+        let light = LocalDirections::new(meaning.side as usize)?;
         let (materials, material_of) = materials_of(name, &model)?;
         let of_material = self.of_materials(&materials)?;
         let texture_of = material_of.iter().map(|&material| of_material[material as usize]).collect();
@@ -153,12 +151,12 @@ impl TextureArgs {
             given::require_file(source, "patch", PatchKind::VARIANTS, "npy")?;
             return Ok(SurfaceTexture { name, samples: load_bidirectional_texture(source)?, patch: None });
         };
-        let refused = |error: InputError| Problem::usage(error.to_string(), "see `--help`");
-        let view = LocalDirections::new(self.texture_views.unwrap_or(12).into()).map_err(refused)?;
+        let view = LocalDirections::new(self.texture_views.unwrap_or(12).into())?;
         let size = self.texture_size.unwrap_or(64) as usize;
-        let sampling = TextureSampling { size, view, light: light.clone(), samples: 1 };
         let patch = kind.patch(1.0);
-        let samples = patch.texture(&sampling, &mut |_, _| ()).map_err(refused)?;
+        let samples = patch.texture(size, &view, light, &mut |_, _| ()).map_err(|error| {
+            Problem::usage(error.to_string(), "use a smaller `--texture-size` or `--texture-views`")
+        })?;
         Ok(SurfaceTexture { name, samples, patch: Some(patch) })
     }
 }

@@ -46,8 +46,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (side, path) = (args.directions, args.of.out.as_path());
-    let directions = LocalDirections::new(side.into())
-        .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
+    let directions = LocalDirections::new(side.into())?;
     let (caster, model, vertices) = args.of.load(args.crease)?;
     let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon: Horizon::Geometry };
     let bar = ProgressBar::new("visibility", 1).quicker("fewer `--directions`");

@@ -9,9 +9,10 @@ use super::file::{histogram, load, unit, value_counts, values_document};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
-use crate::cli::Problem;
 use crate::cli::study::written;
 use crate::cli::words::counted;
+use crate::cli::{Problem, given};
+use crate::error::InputError;
 use crate::io::{write_file, write_matrix_market};
 use crate::report::{Cell, Findings, Table};
 
@@ -72,14 +73,10 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
 }
 
 fn write_text(file: &BiScaleFile, name: &Path, path: &Path) -> Result<(), Problem> {
-    let refused = |error: String| Problem::usage(error, "give another file");
-    let sum = match (&file.matrix, &file.biclusters) {
-        (None, Some(biclusters)) => {
-            Some(biclusters.sum().map_err(|error| refused(format!("{}: {error}", name.display())))?)
-        }
-        _ => None,
-    };
-    let matrix = file.matrix.as_ref().or(sum.as_ref()).ok_or_else(|| refused("no matrix".to_owned()))?;
+    let sum = file.biclusters.as_ref().filter(|_| file.matrix.is_none()).map(Biclustering::sum);
+    let refused = |error: InputError| Problem::usage(format!("{}: {error}", name.display()), "give another file");
+    let sum = sum.transpose().map_err(refused)?;
+    let matrix = file.matrix.as_ref().or(sum.as_ref()).expect("a matrix or biclusters");
     let size = [matrix.rows(), matrix.columns(), matrix.nonzeros()];
     let entries = (0..matrix.rows()).flat_map(|row| {
         matrix.row(row).iter().map(move |entry| (row, entry.index as usize, matrix.value(entry.value)))

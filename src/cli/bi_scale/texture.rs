@@ -9,8 +9,7 @@ use strum::VariantNames as _;
 
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::texture::{
-    BidirectionalTexture, HeightField, MesoMaterial, MesoPatch, MesoTexel, PatchKind, TextureSampling,
-    write_bidirectional_texture,
+    BidirectionalTexture, HeightField, MesoMaterial, MesoPatch, MesoTexel, PatchKind, write_bidirectional_texture,
 };
 use crate::cli::study::written;
 use crate::cli::words::counted;
@@ -74,17 +73,16 @@ fn refused(error: impl Display) -> Problem {
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let view = LocalDirections::new(args.views.into()).map_err(refused)?;
-    let light = LocalDirections::new(args.directions.into()).map_err(refused)?;
+    let view = LocalDirections::new(args.views.into())?;
+    let light = LocalDirections::new(args.directions.into())?;
     let (views, lights) = (view.directions().len(), light.directions().len());
     let size = args.texels as usize;
     let nearest = view.nearest(glam::DVec3::Z);
     let patch = patch_of(&args.source)?;
     let bar = ProgressBar::new("views", 1).quicker("fewer `--views` or `--texels`");
     let start = Instant::now();
-    let sampling = TextureSampling { size, view, light, samples: 1 };
     let mut done = |done: usize, of: usize| bar.show("views".to_owned(), done as u64, of as u64);
-    let texture = patch.texture(&sampling, &mut done).map_err(refused)?;
+    let texture = patch.texture(size, &view, &light, &mut done).map_err(refused)?;
     let seconds = start.elapsed().as_secs_f64();
     drop(bar);
     write_file(&args.out, |out| write_bidirectional_texture(&texture, out)).map_err(Problem::from)?;

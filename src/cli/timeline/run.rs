@@ -16,7 +16,7 @@ use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::options::Size;
 use crate::options::one_of::{OneOf, one_of};
-use crate::ray_engine::{Crossbar, RayBatch};
+use crate::ray_engine::{Crossbar, RayBatch, Recording};
 use crate::scene::Camera;
 
 const EXAMPLES: &str = "\
@@ -96,12 +96,13 @@ pub(super) struct CardRun {
 impl CardRun {
     pub(super) fn new(args: &Args) -> miette::Result<Self> {
         let device = args.device.as_deref().map(device_named).transpose()?;
+        // Figures that the models lack are reported before the drawing, which may take long.
         let watcher = |profile: &Profile| -> Result<_, Problem> {
+            Model::new(Level::Pipeline, profile).map_err(no_figure)?;
             let caches = args.cache.then(|| TextureCaches::new(profile)).transpose().map_err(no_figure)?;
             Ok(caches.map(|caches| move || -> Box<dyn TexelObserver> { Box::new(caches.clone()) }))
         };
-        // A single step, shown because it takes long with `--cache`.
-        let _bar = ProgressBar::new("drawing", 1);
+        let bar = ProgressBar::new("drawing", 1).quicker("fewer `--eye-rays`");
         match (&args.case, args.eye_rays) {
             (Some(case), None) => {
                 let setup = Setup::read_with(case, &Overrides { device, ..Overrides::default() })?;
@@ -114,14 +115,15 @@ impl CardRun {
             }
             (None, Some(size)) => {
                 let profile = device.map_or_else(|| device_named(DEFAULT_DEVICE), Ok)?;
+                let make = watcher(&profile)?;
                 let camera = Camera::teapot(size.width, size.height).into_diagnostic()?;
                 let mesh = teapot(TESSELLATION).into_diagnostic()?;
                 let rays = RayBatch::new(size.width, size.height, camera.rays()).into_diagnostic()?;
+                let show = |done: usize, of: usize| bar.show("drawing".to_owned(), done as u64, of as u64);
+                let new_observer = make.as_ref().map(|make| make as &(dyn Fn() -> Box<dyn TexelObserver> + Sync));
+                let recording = Recording { new_observer, done: Some(&show) };
                 let crossbar = Crossbar::new(profile.clone(), ExecutorKind::Batch);
-                let answer = match watcher(&profile)? {
-                    Some(make) => crossbar.intersect_observed(&mesh, &rays, Sides::Front, &make)?,
-                    None => crossbar.intersect_recorded(&mesh, &rays, Sides::Front)?,
-                };
+                let answer = crossbar.intersect_recorded(&mesh, &rays, Sides::Front, recording)?;
                 let title = format!("{}x{} rays on the teapot, {} triangles", rays.width(), rays.height(), mesh.len());
                 Ok(Self { profile, title, rays: Some(rays.rays().len() as u64), log: answer.log })
             }

@@ -1,7 +1,5 @@
 //! Values of options: reflectance, tangents.
 
-use glam::DVec3;
-
 use crate::options::number;
 use crate::transfer::Tangents;
 use crate::transfer::brdf::Brdf;
@@ -34,13 +32,5 @@ pub(in crate::cli) fn brdf(text: &str) -> Result<Brdf, String> {
 
 /// Source of tangents: `any`, `texture`, or an axis X,Y,Z.
 pub(in crate::cli) fn tangents(text: &str) -> Result<Tangents, String> {
-    match text {
-        "any" => Ok(Tangents::Any),
-        "texture" => Ok(Tangents::Texture),
-        _ => {
-            let axis = DVec3::from(number::three(text, "X,Y,Z, or `any` or `texture`")?.map(f64::from));
-            let wrong = || format!("expected an axis with a length above 0, found `{text}`");
-            (axis != DVec3::ZERO).then_some(Tangents::Along(axis)).ok_or_else(wrong)
-        }
-    }
+    Tangents::try_from(text.to_owned())
 }

@@ -4,9 +4,8 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::extremes::Extremes;
+use super::extremes::least;
 use super::harmonics::{MAX_ORDER, function_count, harmonics, order_of};
-use super::rotation::HarmonicRotation;
 use crate::elementary::sin_cos;
 use crate::error::{InputError, ensure, input_error};
 use crate::quadrature::legendre_polynomials;
@@ -105,19 +104,9 @@ impl HarmonicLight {
         Self { channels: [0, 1, 2].map(sum) }
     }
 
-    /// Rotates the light around the scene. Panics if the rotation has another order.
-    pub fn rotated(&self, rotation: &HarmonicRotation) -> Self {
-        let turned = |channel: &Vec<f64>| {
-            let mut into = vec![0.0; channel.len()];
-            rotation.apply(channel, &mut into);
-            into
-        };
-        Self { channels: self.channels.each_ref().map(turned) }
-    }
-
-    /// Minimum and maximum radiance of each channel.
-    pub fn extremes(&self) -> [Extremes; 3] {
-        self.channels.each_ref().map(|channel| Extremes::of(channel))
+    /// Minimum radiance of each channel; negative if the light rings.
+    pub fn least(&self) -> [f64; 3] {
+        self.channels.each_ref().map(|channel| least(channel).0)
     }
 }
 

@@ -19,7 +19,7 @@ mod sky;
 
 pub use cube::{CUBE_FACES, CubeMap, FaceAxes};
 pub use environment::EnvironmentPicture;
-pub use extremes::Extremes;
+pub use extremes::least;
 pub use harmonics::{
     MAX_ORDER, evaluate, function_band, function_count, function_index, harmonics, order_of, order_with,
 };

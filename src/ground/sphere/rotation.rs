@@ -78,16 +78,6 @@ impl HarmonicRotation {
             }
         }
     }
-
-    /// Inverse rotation.
-    pub fn inverse(&self) -> Self {
-        let mut bands = Vec::with_capacity(self.bands.len());
-        for l in 0..self.order {
-            let (band, size) = (self.band(l), 2 * l + 1);
-            bands.extend((0..size * size).map(|k| band[k % size * size + k / size]));
-        }
-        Self { order: self.order, bands }
-    }
 }
 
 fn first_of_band(l: usize) -> usize {

@@ -11,7 +11,6 @@ use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthSurface};
 use refsim::raster::Primitive;
 use refsim::texture::{Image, Region, SamplerState, TexelFormat};
 
-use super::sorted::SortedTriangle;
 use super::units::{Units, ray_textures};
 use super::{EdgeRule, EngineError, Form, Kernel, RayBatch};
 use crate::card::NearestTarget;
@@ -206,16 +205,32 @@ impl Streams {
     fn sorted(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (id, corners) in ids.iter().rev().filter_map(|id| Some((*id, mesh.corners(*id)?))) {
-            let sorted = SortedTriangle::new(corners);
-            for ((stream, [x, y, z]), [p, q]) in triangles.iter_mut().zip(sorted.corners).zip(sorted.edges()) {
+            let ([p0, p1, p2], turn) = sorted_corners(corners);
+            // Each edge goes from its smaller to its larger corner.
+            let edges = [[p0, p1], [p0, p2], [p1, p2]];
+            for ((stream, [x, y, z]), [p, q]) in triangles.iter_mut().zip([p0, p1, p2]).zip(edges) {
                 stream.push([x, y, z, units.shared_edge_scale(p, q) as f32].map(f32::to_bits));
             }
             let [red, green, blue, _] = color_of_id(id);
-            let normal = units.normal_scale(corners) * sorted.turn;
+            let normal = units.normal_scale(corners) * turn;
             triangles[3].push([red, green, blue, (normal as f32).to_bits()]);
         }
         triangles
     }
+}
+
+/// Corners sorted by x, then y, then z, so that a common edge has the same direction in both of its triangles, even if
+/// they do not share vertices; and the sign of the permutation.
+fn sorted_corners(mut corners: [[f32; 3]; 3]) -> ([[f32; 3]; 3], f64) {
+    let mut turn = 1.0;
+    for [first, second] in [[0, 1], [1, 2], [0, 1]] {
+        // Corners are finite, so they always compare; equal corners are not exchanged.
+        if corners[first] > corners[second] {
+            corners.swap(first, second);
+            turn = -turn;
+        }
+    }
+    (corners, turn)
 }
 
 /// Binds the streams: corners step per vertex in register 0; per-triangle attributes step per instance in the registers

@@ -1,5 +1,6 @@
 //! The crossbar on an emulated card: every ray of a batch is tested against every triangle of a mesh.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
@@ -25,14 +26,14 @@ const LIST_BUCKET: u32 = 16;
 /// Maximum number of rays of a list in one batch.
 const LIST_BATCH: usize = 65_536;
 
-/// Creates a `TexelObserver` per bucket.
-pub type MakeObserver<'a> = dyn Fn() -> Box<dyn TexelObserver> + Sync + 'a;
-
-/// Recording options: event log and observer of texel reads.
+/// Options of a recorded intersection.
 #[derive(Clone, Copy, Default)]
-struct Recording<'a> {
-    on: bool,
-    new_observer: Option<&'a MakeObserver<'a>>,
+#[expect(missing_debug_implementations, reason = "functions cannot be printed")]
+pub struct Recording<'a> {
+    /// Creates an observer of texel reads per bucket. The card then draws with the scalar executor, which is slow.
+    pub new_observer: Option<&'a (dyn Fn() -> Box<dyn TexelObserver> + Sync)>,
+    /// Called after each bucket with the number of finished buckets and their total.
+    pub done: Option<&'a (dyn Fn(usize, usize) + Sync)>,
 }
 
 /// A card that intersects rays with triangles.
@@ -103,26 +104,20 @@ impl Crossbar {
 
     /// Intersects all rays with all triangles: section 3.3 of the paper.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
-        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, None)
     }
 
     /// Runs [`Crossbar::intersect`] and records the card's log, bucket by bucket, as on a card with one set of textures
     /// and targets. The hits equal the hits of [`Crossbar::intersect`]; the log is the same for every executor and
     /// number of threads. Fails as [`Crossbar::intersect`] does.
-    pub fn intersect_recorded(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
-        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, new_observer: None })
-    }
-
-    /// Runs [`Crossbar::intersect_recorded`] with one observer of texel reads per bucket. It draws with the scalar
-    /// executor, which is slow. Fails as [`Crossbar::intersect`] does.
-    pub fn intersect_observed(
+    pub fn intersect_recorded(
         &self,
         mesh: &Mesh,
         rays: &RayBatch,
         sides: Sides,
-        new_observer: &MakeObserver<'_>,
+        recording: Recording<'_>,
     ) -> Result<Answer, EngineError> {
-        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, new_observer: Some(new_observer) })
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Some(recording))
     }
 
     /// Runs one pass of rays of any origin against some triangles, given in ascending order, with or without culling in
@@ -137,9 +132,8 @@ impl Crossbar {
         cull: bool,
     ) -> Result<Answer, EngineError> {
         let mut card = self.pass_card(mesh, sides, cull)?;
-        let drawn = card.draw(0, mesh, triangles, rays)?;
-        let (hits, _) = card.read_back(&drawn, rays, true)?;
-        Ok(Answer { hits: rounded(hits), events: drawn.events, kernel: card.kernel.name, log: Vec::new() })
+        let (hits, _, events) = card.test(0, mesh, triangles, rays, true)?;
+        Ok(Answer { hits: rounded(hits), events, kernel: card.kernel.name, log: Vec::new() })
     }
 
     pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, cull: bool) -> Result<PassCard, EngineError> {
@@ -191,7 +185,7 @@ impl Crossbar {
         rays: &RayBatch,
         sides: Sides,
         side: u32,
-        recording: Recording<'_>,
+        recording: Option<Recording<'_>>,
     ) -> Result<Answer, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         check_count(mesh)?;
@@ -200,21 +194,26 @@ impl Crossbar {
             return Ok(answer);
         }
         let units = Units::choose(kernel.numbers(&self.profile.rules), mesh, rays);
+        let buckets = self.buckets(mesh, rays, side);
+        let (finished, total) = (AtomicUsize::new(0), buckets.len());
+        let Recording { new_observer, done } = recording.unwrap_or_default();
         let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
             let bucket = rays.part(region);
             let mut machine = self.machine()?;
-            machine.record(recording.on);
-            machine.observe_textures(recording.new_observer.map(|make| make()));
+            machine.record(recording.is_some());
+            machine.observe_textures(new_observer.map(|make| make()));
             let sheet = RayTextures::new(&mut machine, &kernel, &bucket, &units)?;
             // New targets are already clear; targets that are reused from bucket to bucket must be cleared.
             sheet.clear(&mut machine)?;
             let events =
                 sheet.draw(&mut machine, &kernel, &units, &[], &Streams::new(mesh, &kernel, &units, &triangles))?;
             let (hits, _) = sheet.read_back(&machine, &bucket, &units, true)?;
+            if let Some(done) = done {
+                done(finished.fetch_add(1, Ordering::Relaxed) + 1, total);
+            }
             Ok((region, rounded(hits), events, machine.take_log()))
         };
-        let buckets = self.buckets(mesh, rays, side);
-        let drawn: Vec<_> = match buckets.len() {
+        let drawn: Vec<_> = match total {
             1 => buckets.into_iter().map(draw).collect::<Result<_, _>>()?,
             _ => buckets.into_par_iter().map(draw).collect::<Result<_, _>>()?,
         };
@@ -235,7 +234,7 @@ impl Crossbar {
         let mut hits = Vec::with_capacity(rays.len());
         for chunk in rays.chunks(LIST_BATCH) {
             let batch = RayBatch::from_list(chunk);
-            let answer = self.intersect_in_buckets(mesh, &batch, sides, LIST_BUCKET, Recording::default())?;
+            let answer = self.intersect_in_buckets(mesh, &batch, sides, LIST_BUCKET, None)?;
             hits.extend((0..chunk.len()).map(|i| answer.hits[batch.pixel_of(i)]));
         }
         Ok(hits)

@@ -100,7 +100,7 @@ pub(super) fn bucket(
     let places = Extent::of(corners.map(|corner| wide(corner) * units.scale()));
     let (Some(origins), Some(directions), Some(places)) = (origins, directions, places) else { return nothing() };
     let (origins, directions) = (origins.grown(errors.texel), directions.grown(errors.texel));
-    Bounds::new(&origins, &directions, &places, errors).constants(&origins, &directions, sides)
+    constants([&origins, &directions, &places], errors, sides)
 }
 
 /// Box of vectors: its center (a single-precision number), half its extent, and the largest magnitudes.
@@ -129,60 +129,39 @@ impl Extent {
     }
 }
 
-/// Tolerances of the culling tests, including rounding.
-struct Bounds {
-    /// Tolerance of n.ao, relative to |n|.
-    n_ao: DVec3,
-    /// Tolerance of n.d, relative to |n|.
-    n_d: DVec3,
-    /// Tolerance of u, v and w, relative to their edge, in addition to the terms known per triangle.
-    edge: DVec3,
-    /// Absolute tolerance of n.ao, n.d and of u, v, w for every triangle.
-    alone: [f64; 3],
-    /// Largest |ab| + |ac| of a triangle that may be culled.
-    most_edges: f64,
-}
-
-impl Bounds {
-    fn new(origins: &Extent, directions: &Extent, places: &Extent, errors: Errors) -> Self {
-        let Errors { share, step, .. } = errors;
-        let d = directions.most;
-        let a = places.most + origins.most;
-        let products = mixed(a, d);
-        let both = mixed(origins.half, directions.half);
-        let others = 2.0 * a.element_sum() + 2.0 * d.element_sum() + 4.0;
-        Self {
-            n_ao: origins.half + share * a + step * (8.0 + d),
-            n_d: directions.half + share * d + 2.0 * step,
-            edge: both + share * products + 2.0 * step * others,
-            // One program divides n.ao by four before it tests its sign.
-            alone: [
-                8.0 * step * (a.element_sum() + 4.0),
-                2.0 * step * (d.element_sum() + 4.0),
-                2.0 * step * (products.element_sum() + d.element_sum() + 8.0),
-            ],
-            most_edges: most_edges(a, d, products, errors),
-        }
-    }
-
-    fn constants(&self, origins: &Extent, directions: &Extent, sides: Sides) -> Vec<[u32; 4]> {
-        let front = f64::from(u8::from(sides == Sides::Front));
-        let vector = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
-        let up = |v: DVec3, w: f64| vector(v, w).map(upward);
-        let [n_ao, n_d, uvw] = self.alone.map(|x| upward(x as f32));
-        let all = [
-            vector(origins.middle, front),
-            up(origins.half, 0.0),
-            vector(directions.middle, 0.0),
-            up(directions.half, 0.0),
-            up(self.n_ao, 0.0),
-            up(self.edge, 0.0),
-            up(self.n_d, 0.0),
-            [n_ao, n_d, self.most_edges as f32, uvw],
-        ];
-        debug_assert_eq!(all.len(), COUNT);
-        all.map(|c| c.map(f32::to_bits)).to_vec()
-    }
+/// The constants from the tolerances of the culling tests, including rounding.
+fn constants([origins, directions, places]: [&Extent; 3], errors: Errors, sides: Sides) -> Vec<[u32; 4]> {
+    let Errors { share, step, .. } = errors;
+    let d = directions.most;
+    let a = places.most + origins.most;
+    let products = mixed(a, d);
+    let others = 2.0 * a.element_sum() + 2.0 * d.element_sum() + 4.0;
+    // Tolerances of n.ao and n.d relative to |n|, and of u, v and w relative to their edge, in addition to the terms
+    // known per triangle.
+    let n_ao = origins.half + share * a + step * (8.0 + d);
+    let n_d = directions.half + share * d + 2.0 * step;
+    let edge = mixed(origins.half, directions.half) + share * products + 2.0 * step * others;
+    // Absolute tolerances of n.ao, n.d and of u, v, w. One program divides n.ao by four before it tests its sign.
+    let alone = [
+        8.0 * step * (a.element_sum() + 4.0),
+        2.0 * step * (d.element_sum() + 4.0),
+        2.0 * step * (products.element_sum() + d.element_sum() + 8.0),
+    ];
+    let [alone_n_ao, alone_n_d, alone_uvw] = alone.map(|x| upward(x as f32));
+    let front = f64::from(u8::from(sides == Sides::Front));
+    let vector = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
+    let up = |v: DVec3| vector(v, 0.0).map(upward);
+    let all: [[f32; 4]; COUNT] = [
+        vector(origins.middle, front),
+        up(origins.half),
+        vector(directions.middle, 0.0),
+        up(directions.half),
+        up(n_ao),
+        up(edge),
+        up(n_d),
+        [alone_n_ao, alone_n_d, most_edges(a, d, products, errors) as f32, alone_uvw],
+    ];
+    all.map(|c| c.map(f32::to_bits)).to_vec()
 }
 
 /// Returns the largest |ab| + |ac| at which no intermediate leaves the range of the format; negative if some

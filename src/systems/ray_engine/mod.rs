@@ -6,9 +6,9 @@
 //!
 //! - [`paper`]: equations (1) to (8) in plain f64; read it first;
 //! - 3.3, 4.2, 5.3: [`Crossbar`], every ray against every triangle, in buckets (`crossbar`, `bundle`, `card`);
-//!   [`ResidentCrossbar`] draws again without uploads; 3.4: [`VertexCrossbar`], intersection in the vertex units;
-//! - 4.1, 4.3: [`kernels`] and their choice ([`Kernel`]), including kernels without leaks at edges ([`EdgeRule`],
-//!   `sorted`); [`RayBatch`], rays as texels; scaling of scenes to a format's range (`range`, `reach`, `units`), and
+//!   [`ResidentCrossbar`] draws again without uploads; 3.4: [`intersect_in_vertices`], in the vertex units;
+//! - 4.1, 4.3: [`kernels`] and their choice ([`Kernel`]), including kernels without leaks at edges
+//!   ([`EdgeRule`]); [`RayBatch`], rays as texels; scaling of scenes to a format's range (`range`, `reach`, `units`), and
 //!   lost triangle normals ([`BitsLeft`]);
 //! - 5.2, 5.3, 6.2, 6.3: [`engine`], with the 5-D [`ray_tree`], passes (`pass`) and culling in the vertex program
 //!   (`cull`);
@@ -32,13 +32,12 @@ mod range;
 pub mod ray_tree;
 mod rays;
 mod reach;
-mod sorted;
 mod units;
 mod vertex_crossbar;
 
 pub use answer::{Answer, EngineError};
 pub use bits_left::BitsLeft;
-pub use crossbar::{Crossbar, MakeObserver, ResidentCrossbar};
+pub use crossbar::{Crossbar, Recording, ResidentCrossbar};
 pub use kernel::{EdgeRule, Form, Kernel, RayTexels};
 pub use rays::RayBatch;
-pub use vertex_crossbar::VertexCrossbar;
+pub use vertex_crossbar::intersect_in_vertices;

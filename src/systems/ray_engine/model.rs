@@ -40,10 +40,4 @@ impl CostRates {
         let gained = host_tests_per_s.recip() - self.fill_pixels_per_s.recip();
         (gained > 0.0).then(|| (gamma / self.readback_bytes_per_s / gained).ceil().max(1.0) as u32)
     }
-
-    /// Fill rate in pixels per second at which equation 11 gives `tests_per_s`; infinite or negative if read-back alone
-    /// takes longer.
-    pub fn implied_fill(tests_per_s: f64, triangles: f64, gamma: f64, readback_bytes_per_s: f64) -> f64 {
-        triangles / (triangles / tests_per_s - gamma / readback_bytes_per_s)
-    }
 }

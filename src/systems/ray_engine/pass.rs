@@ -24,28 +24,22 @@ pub(super) struct PassCard {
     sheets: BTreeMap<(usize, u32, u32), RayTextures>,
 }
 
-/// A draw whose results can be read back.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct DrawnPass {
-    units: Units,
-    sheet: usize,
-    pub(super) events: DrawEvents,
-}
-
 impl PassCard {
     pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides) -> Self {
         let bounds = mesh.bounds().unwrap_or_default();
         Self { machine, kernel, sides, bounds, sheets: BTreeMap::new() }
     }
 
-    /// Tests rays against some triangles, given in ascending order, with the textures and targets of set `sheet`.
-    pub(super) fn draw(
+    /// Tests rays against some triangles, given in ascending order, with the textures and targets of set `sheet`, and
+    /// reads back the hit of each ray. If the host does not wait, the returned fence is passed when all data has arrived.
+    pub(super) fn test(
         &mut self,
         sheet: usize,
         mesh: &Mesh,
         triangles: &[u32],
         rays: &RayBatch,
-    ) -> Result<DrawnPass, EngineError> {
+        wait: bool,
+    ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>, DrawEvents), EngineError> {
         let (machine, kernel) = (&mut self.machine, &self.kernel);
         let units = Units::within(kernel.numbers(&machine.profile().rules), self.bounds, rays);
         let bucket = match kernel.culls {
@@ -62,20 +56,7 @@ impl PassCard {
         };
         loaded.clear(machine)?;
         let events = loaded.draw(machine, kernel, &units, &bucket, &Streams::new(mesh, kernel, &units, triangles))?;
-        Ok(DrawnPass { units, sheet, events })
-    }
-
-    /// Reads back the hit of each ray of a draw. If the host does not wait, the returned fence is passed when all data
-    /// has arrived.
-    pub(super) fn read_back(
-        &self,
-        drawn: &DrawnPass,
-        rays: &RayBatch,
-        wait: bool,
-    ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
-        let Some(sheet) = self.sheets.get(&(drawn.sheet, rays.width(), rays.height())) else {
-            return Ok((vec![None; rays.rays().len()], None));
-        };
-        sheet.read_back(&self.machine, rays, &drawn.units, wait)
+        let (hits, fence) = loaded.read_back(machine, rays, &units, wait)?;
+        Ok((hits, fence, events))
     }
 }

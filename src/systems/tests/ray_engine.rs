@@ -1,6 +1,7 @@
 //! Unit tests of the Ray Engine: cost equations, ray batches, buckets, ids.
 
-use approx::assert_abs_diff_eq;
+use std::sync::Mutex;
+
 use crossbar_base::geom::exact::Sides;
 use crossbar_base::geom::teapot::teapot;
 use crossbar_base::geom::{Mesh, Ray};
@@ -8,7 +9,7 @@ use crossbar_ground::scene::Camera;
 use crossbar_systems::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 use crossbar_systems::ray_engine::model::CostRates;
 use crossbar_systems::ray_engine::ray_tree::{RayTree, RayTreeParameters};
-use crossbar_systems::ray_engine::{Crossbar, RayBatch};
+use crossbar_systems::ray_engine::{Crossbar, RayBatch, Recording};
 use refsim::machine::ExecutorKind;
 
 use crate::device;
@@ -25,14 +26,6 @@ fn the_card_pays_from_the_least_number_of_triangles_on_and_not_before() {
         }
     }
     assert_eq!(GEFORCE3.least_triangles(390e6, 4.0), None);
-}
-
-#[test]
-fn the_implied_fill_gives_the_rate_back() {
-    let fill = CostRates::implied_fill(286e6, 10.0, 4.0, 250e6);
-    assert_eq!((fill / 1e5).round(), 5273.0);
-    let card = CostRates { fill_pixels_per_s: fill, ..GEFORCE3 };
-    assert_abs_diff_eq!(card.tests_per_s(10.0, 4.0) / 286e6, 1.0, epsilon = 1e-12);
 }
 
 #[test]
@@ -77,6 +70,22 @@ fn every_draw_of_resident_rays_is_that_of_a_new_one() {
             assert_eq!((&again.hits, &again.events), (&new.hits, &new.events), "{name}, draw {draw}");
         }
     }
+}
+
+/// A recording reports each of its buckets of 32 x 32 rays.
+#[test]
+fn every_bucket_is_reported() {
+    let rays = RayBatch::new(65, 33, Camera::teapot(65, 33).expect("a camera").rays()).expect("a ray per pixel");
+    let mesh = teapot(1).expect("the teapot tessellates");
+    let reported = Mutex::new(Vec::new());
+    let done = |done: usize, total: usize| reported.lock().expect("no panic").push((done, total));
+    let recording = Recording { new_observer: None, done: Some(&done) };
+    let crossbar = Crossbar::new(device("ideal-fp32"), ExecutorKind::Batch);
+    let answer = crossbar.intersect_recorded(&mesh, &rays, Sides::Front, recording).expect("the card intersects");
+    assert_eq!(answer.hits, crossbar.intersect(&mesh, &rays, Sides::Front).expect("the card intersects").hits);
+    let mut reported = reported.into_inner().expect("no panic");
+    reported.sort_unstable();
+    assert_eq!(reported, (1..=6).map(|done| (done, 6)).collect::<Vec<_>>());
 }
 
 #[test]

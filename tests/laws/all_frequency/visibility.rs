@@ -81,8 +81,7 @@ fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
                 let found = VisibilityMaps::trace_sampled(&vertices, &of, sampling, &mut caster, &mut |_, _| ());
                 let found = found.expect("maps");
                 assert!(found.words() == expected.words(), "{name}, {sampling:?}");
-                let counts =
-                    |maps: &VisibilityMaps| (maps.counts.above, maps.counts.below_triangles, maps.counts.visible);
+                let counts = |maps: &VisibilityMaps| (maps.counts.above, maps.counts.visible);
                 assert_eq!(counts(&found), counts(&expected), "{name}, {sampling:?}");
                 if sampling == VisibilitySampling::default() {
                     assert!(found.counts.traced < expected.counts.traced, "{name}");

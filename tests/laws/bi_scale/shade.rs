@@ -7,7 +7,7 @@ use crossbar::bi_scale::product::by_rows;
 use crossbar::bi_scale::shade::{
     ShadedPixel, TextureLookup, TracedLight, TracedPoint, TracedRung, TracedScene, pixel_frame,
 };
-use crossbar::bi_scale::texture::{BidirectionalTexture, MesoMaterial, MesoPatch, PatchKind, TextureSampling};
+use crossbar::bi_scale::texture::{BidirectionalTexture, MesoMaterial, MesoPatch, PatchKind};
 use crossbar::bi_scale::transfer::{light_vector, transfer_matrix};
 use crossbar::geom::{Mesh, Sides};
 use crossbar::tracer::HostTracer;
@@ -122,8 +122,7 @@ fn rungs_at(
 
 fn sampled(patch: &MesoPatch, size: usize, side: usize) -> BidirectionalTexture {
     let directions = |side: usize| LocalDirections::new(side).expect("directions");
-    let sampling = TextureSampling { size, view: directions(4), light: directions(side), samples: 1 };
-    patch.texture(&sampling, &mut |_, _| ()).expect("a texture")
+    patch.texture(size, &directions(4), &directions(side), &mut |_, _| ()).expect("a texture")
 }
 
 /// A Lambert square under uniform light 1 reflects its albedo. Ray tracing has the error of 49,152 directions in the

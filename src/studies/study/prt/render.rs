@@ -44,7 +44,7 @@ impl Study for Rendering {
         let radiance = |direction| self.light.radiance(direction);
         let (mut found, exposure) =
             self.view.findings("Precomputed radiance transfer", &drawn, radiance, seen.count())?;
-        let least = self.light.extremes().map(|channel| channel.least);
+        let least = self.light.least();
         if least.iter().any(|&radiance| radiance < 0.0) {
             let [red, green, blue] = least.map(|radiance| shown(radiance, Quantity::Measured));
             let order = self.light.order();

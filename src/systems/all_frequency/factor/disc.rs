@@ -70,29 +70,6 @@ impl ProductErrors {
         }
     }
 
-    /// Errors of factors at [`Self::directions`] for both view and light, against f clamped to `limit`: the combined
-    /// loss by interpolation, by means over texels and by omitted terms.
-    pub fn between_texels(product: &dyn ProductFunction, limit: f64, factors: &ProductFactors) -> Self {
-        let directions = Self::directions();
-        let read = |of: &dyn Fn(DVec3, &mut [f64])| -> Vec<f64> {
-            let mut values = vec![0.0; directions.len() * factors.terms()];
-            let texels = values.chunks_exact_mut(factors.terms()).zip(&directions);
-            texels.for_each(|(into, &direction)| of(direction, into));
-            values
-        };
-        let [view, light] = [
-            read(&|direction, into| factors.view(direction, into)),
-            read(&|direction, into| factors.light(direction, into)),
-        ];
-        Self::over([directions.len(); 2], |at, f, found| {
-            let g = &view[at * factors.terms()..(at + 1) * factors.terms()];
-            for (place, light) in light.chunks_exact(factors.terms()).enumerate() {
-                f[place] = product.value(directions[at], directions[place]).min(limit);
-                found[place] = dot(g, light);
-            }
-        })
-    }
-
     /// 1,024 directions with equal solid angles above the horizon, along a spiral: "1024 samples in both light
     /// direction and view direction sampled over the hemisphere"; the paper does not specify them.
     pub fn directions() -> Vec<DVec3> {

@@ -28,7 +28,7 @@ pub(super) struct CellPatch {
     corner: f64,
     along: f64,
     across: f64,
-    twist: f64,
+    pub(super) twist: f64,
 }
 
 impl CellPatch {
@@ -40,11 +40,6 @@ impl CellPatch {
     /// The derivatives of the height along x and y, per texel.
     pub(super) fn slope(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         [self.along + b * self.twist, self.across + a * self.twist]
-    }
-
-    /// The coefficient of the product of a and b.
-    pub(super) fn twist(&self) -> f64 {
-        self.twist
     }
 }
 
@@ -115,7 +110,8 @@ impl HeightField {
 
     /// The difference between the highest and the lowest height.
     pub fn depth(&self) -> f64 {
-        -self.bottom
+        // Not -0 for a flat patch.
+        0.0 - self.bottom
     }
 
     /// The height of a texel of the repeated patch.

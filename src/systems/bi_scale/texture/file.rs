@@ -6,13 +6,10 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::response::BidirectionalTexture;
+use super::response::{BidirectionalTexture, MAX_BYTES};
 use crate::bi_scale::directions::LocalDirections;
 use crate::error::{InputError, input_error};
 use crate::io::{NumberArray, load_npy_array, write_npy_array};
-
-/// Largest size of a file that is read, in bytes (8 GiB).
-const MAX_BYTES: u64 = 1 << 33;
 
 fn shape_error(path: &Path, found: Vec<usize>) -> InputError {
     input_error!("crossbar::bidirectional_texture::shape" =>

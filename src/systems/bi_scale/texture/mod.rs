@@ -4,21 +4,17 @@
 //! - [`BidirectionalTexture`]: samples of b(u, e, d); [`GridSamples`]: the four views or texels around a place; `file`:
 //!   textures as NPY files;
 //! - [`HeightField`], [`MesoMaterial`], [`MesoPatch`]: a repeated patch of heights and materials, seen and lit by rays;
-//! - [`PatchKind`]: procedural bumps, mail, tiles, bricks and weave;
-//! - [`TextureSampling`]: samples patches into textures;
-//! - [`mod@reference`]: intersection of rays with heights by plain loops.
+//! - [`PatchKind`]: procedural bumps, mail, tiles, bricks and weave.
 
 mod field;
 mod file;
 mod kinds;
 mod patch;
 mod ray;
-pub mod reference;
 mod response;
 
 pub use field::HeightField;
 pub use file::{load_bidirectional_texture, write_bidirectional_texture};
 pub use kinds::PatchKind;
 pub use patch::{MesoMaterial, MesoPatch, MesoTexel, SeenPoint};
-pub use ray::REACH;
-pub use response::{BidirectionalTexture, GridSamples, TextureSampling};
+pub use response::{BidirectionalTexture, GridSamples};

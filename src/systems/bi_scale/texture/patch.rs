@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::field::HeightField;
-use super::ray::{SurfaceHit, TexelRay, follow};
+use super::ray::{TexelRay, follow};
 use crate::elementary::on_circle;
 use crate::error::{InputError, ensure, input_error};
 use crate::transfer::LocalFrame;
@@ -121,26 +121,6 @@ impl MesoPatch {
 
     /// The point that a view sees through texture coordinates `place`.
     pub fn seen(&self, place: [f64; 2], view: DVec3) -> SeenPoint {
-        self.seen_by(place, view, |field, ray| {
-            follow(ray, |span| ray.hit(field, span).map_or(ControlFlow::Continue(()), ControlFlow::Break))
-        })
-    }
-
-    /// The response b of a seen point for light from a direction, one value per channel.
-    pub fn reflected(&self, seen: &SeenPoint, light: DVec3) -> [f64; 3] {
-        self.reflected_by(seen, light, |field, ray| {
-            let dips = |is: bool| if is { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-            follow(ray, |span| dips(ray.dips(field, span))).is_some()
-        })
-    }
-
-    /// The point that a view sees; a function finds the first hit of a ray.
-    pub(super) fn seen_by(
-        &self,
-        place: [f64; 2],
-        view: DVec3,
-        first_hit: impl Fn(&HeightField, &TexelRay) -> Option<SurfaceHit>,
-    ) -> SeenPoint {
         let field = &self.heights;
         let view = if view.z > 0.0 { view } else { level(view) };
         let through = field.texels(place);
@@ -148,7 +128,8 @@ impl MesoPatch {
         let ray = TexelRay::new(field.side(), through, 0.0, (-view).to_array(), -field.depth());
         // A ray without a hit ends at the lowest height, or after the maximum distance.
         let end = ray.place(ray.end.max(0.0));
-        let (at, cell) = first_hit(field, &ray).map_or_else(|| (end, floor(end)), |hit| (hit.at, hit.cell));
+        let hit = follow(&ray, |span| ray.hit(field, span).map_or(ControlFlow::Continue(()), ControlFlow::Break));
+        let (at, cell) = hit.map_or_else(|| (end, floor(end)), |hit| (hit.at, hit.cell));
         let texel = self.texels[field.wrapped((at[0] + 0.5).floor() as isize, (at[1] + 0.5).floor() as isize)];
         let normal = field.normal_in(cell, at);
         let [x, y] = on_circle(texel.turns);
@@ -163,20 +144,16 @@ impl MesoPatch {
         }
     }
 
-    /// The response of a seen point; a function tests whether a ray is blocked.
-    pub(super) fn reflected_by(
-        &self,
-        seen: &SeenPoint,
-        light: DVec3,
-        is_blocked: impl Fn(&HeightField, &TexelRay) -> bool,
-    ) -> [f64; 3] {
+    /// The response b of a seen point for light from a direction, one value per channel.
+    pub fn reflected(&self, seen: &SeenPoint, light: DVec3) -> [f64; 3] {
         let local = seen.frame.to_local(light);
         if !(light.z > 0.0 && local.z > 0.0 && seen.view.z > 0.0) {
             return [0.0; 3];
         }
         let field = &self.heights;
         let ray = TexelRay::new(field.side(), seen.at, seen.height, light.to_array(), -field.depth());
-        if is_blocked(field, &ray) {
+        let dips = |is: bool| if is { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        if follow(&ray, |span| dips(ray.dips(field, span))).is_some() {
             return [0.0; 3];
         }
         self.materials[seen.material].value(seen.view, local).map(|value| value * local.z)

@@ -1,41 +1,39 @@
 //! Intersection of rays with a repeating height field: exact up to rounding, since along a ray the surface of a cell is
 //! a parabola.
 //!
-//! [`follow`] visits the cells along the ray and stops at the first hit. [`reference`](super::reference) tests all
-//! cells around the ray instead. Both clip the ray against a cell by the same two divisions and intersect the cell by
-//! the same function, so they give the same bits.
+//! [`follow`] visits the cells along the ray and stops at the first hit.
 
 use std::ops::ControlFlow;
 
 use super::field::{HeightField, within};
 
 /// Maximum horizontal length of a ray, in edges of the patch: rays nearly parallel to the surface end there.
-pub const REACH: f64 = 64.0;
+const REACH: f64 = 64.0;
 /// Depth below the surface at which a ray counts as blocked, in edges of the patch: far more than the rounding error of
 /// rays that start on the surface.
-pub(super) const DEPTH: f64 = 1e-12;
+const DEPTH: f64 = 1e-12;
 
 /// A ray with horizontal coordinates in texels, and heights in units of the patch's edge length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TexelRay {
-    pub(super) at: [f64; 2],
-    pub(super) height: f64,
-    pub(super) step: [f64; 2],
-    pub(super) rise: f64,
+    at: [f64; 2],
+    height: f64,
+    step: [f64; 2],
+    rise: f64,
     /// The parameter at which the ray ends.
     pub(super) end: f64,
 }
 
+/// The interval of a ray over a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CellSpan {
-    pub(super) cell: [isize; 2],
-    pub(super) from: f64,
-    pub(super) to: f64,
+    cell: [isize; 2],
+    from: f64,
+    to: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SurfaceHit {
-    pub(super) t: f64,
     pub(super) cell: [isize; 2],
     pub(super) at: [f64; 2],
 }
@@ -68,13 +66,6 @@ impl TexelRay {
         }
     }
 
-    /// The interval of the ray over a cell, if it is not empty.
-    pub(super) fn span(&self, cell: [isize; 2]) -> Option<CellSpan> {
-        let [(x0, x1), (y0, y1)] = [0, 1].map(|axis| self.span_along(axis, cell[axis]));
-        let (from, to) = (x0.max(y0).max(0.0), x1.min(y1).min(self.end));
-        (from < to).then_some(CellSpan { cell, from, to })
-    }
-
     pub(super) fn place(&self, t: f64) -> [f64; 2] {
         [0, 1].map(|axis| self.at[axis] + t * self.step[axis])
     }
@@ -89,14 +80,14 @@ impl TexelRay {
         let (patch, [dx, dy]) = (field.cell(span.cell), self.step);
         let inside = within(span.cell, self.place(span.from));
         let [along, across] = patch.slope(inside);
-        Some([from - patch.height(inside), self.rise - dx * along - dy * across, -(dx * dy * patch.twist())])
+        Some([from - patch.height(inside), self.rise - dx * along - dy * across, -(dx * dy * patch.twist)])
     }
 
     /// The first point at which the ray reaches a cell's surface from above.
     pub(super) fn hit(&self, field: &HeightField, span: &CellSpan) -> Option<SurfaceHit> {
         let coefficients = self.above(field, span)?;
         let t = (span.from + first_root(coefficients, span.to - span.from)?).min(span.to);
-        Some(SurfaceHit { t, cell: span.cell, at: self.place(t) })
+        Some(SurfaceHit { cell: span.cell, at: self.place(t) })
     }
 
     /// True if the ray dips below a cell's surface by more than [`DEPTH`].

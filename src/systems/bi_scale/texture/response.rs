@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::patch::{MesoPatch, SeenPoint};
 use crate::bi_scale::directions::{LocalDirections, square};
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure, input_error};
 
 /// b(u, e, d), sampled.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +22,24 @@ pub struct BidirectionalTexture {
     samples: Vec<[f32; 3]>,
 }
 
-pub(super) fn size_error(found: usize) -> InputError {
-    input_error!("expected a patch of 1 to {} texels along an edge, found {found}", BidirectionalTexture::MOST)
+/// Largest size of a file of samples that is read, in bytes (8 GiB).
+pub(super) const MAX_BYTES: u64 = 1 << 33;
+
+/// The number of samples of a texture. Fails with [`InputError`] for a size out of range, or for more samples than a
+/// file holds.
+fn sample_count(size: usize, view: &LocalDirections, light: &LocalDirections) -> Result<usize, InputError> {
+    ensure!(
+        (1..=BidirectionalTexture::MOST).contains(&size),
+        "expected a patch of 1 to {} texels along an edge, found {size}",
+        BidirectionalTexture::MOST
+    );
+    let [views, lights] = [view, light].map(|directions| directions.directions().len());
+    let (count, most) = (views * lights * size * size, MAX_BYTES as usize / size_of::<[f32; 3]>());
+    ensure!(
+        count <= most,
+        "expected at most {most} samples, found {count} ({views} views x {lights} lights x {size} x {size} texels)"
+    );
+    Ok(count)
 }
 
 /// The four samples around a place of a square grid, and their weights, which sum to 1.
@@ -46,11 +62,8 @@ impl BidirectionalTexture {
         light: LocalDirections,
         samples: Vec<[f32; 3]>,
     ) -> Result<Self, InputError> {
-        if !(1..=Self::MOST).contains(&size) {
-            return Err(size_error(size));
-        }
+        let expected = sample_count(size, &view, &light)?;
         let [views, lights] = [&view, &light].map(|directions| directions.directions().len());
-        let expected = views * lights * size * size;
         if samples.len() != expected {
             let found = samples.len();
             return Err(input_error!(
@@ -136,60 +149,31 @@ impl GridSamples {
     }
 }
 
-/// Options of sampling a patch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TextureSampling {
-    /// Texels along an edge of the texture.
-    pub size: usize,
-    /// The views.
-    pub view: LocalDirections,
-    /// The M directions of light.
-    pub light: LocalDirections,
-    /// Number n: a texel is the mean over n x n points, or its middle if n is 1.
-    pub samples: usize,
-}
-
 impl MesoPatch {
-    /// Samples a patch into a texture, with the same bits on any number of threads. `done` is called with the number of
-    /// finished views and their total. Panics if there are no samples per texel.
+    /// Samples a patch at the centers of `size` x `size` texels for views and directions of light, with the same bits on
+    /// any number of threads. `done` is called with the number of finished views and their total. Fails with
+    /// [`InputError`] for a size out of range, or for more than 8 GiB of samples.
     pub fn texture(
         &self,
-        sampling: &TextureSampling,
+        size: usize,
+        view: &LocalDirections,
+        light: &LocalDirections,
         done: &mut dyn FnMut(usize, usize),
     ) -> Result<BidirectionalTexture, InputError> {
-        let TextureSampling { size, view, light, samples: fine } = sampling;
-        assert!(*fine > 0, "a sample in a texel");
-        if !(1..=BidirectionalTexture::MOST).contains(size) {
-            return Err(size_error(*size));
-        }
-        let (lights, texels) = (light.directions(), size * size);
-        let mut samples = vec![[0.0_f32; 3]; view.directions().len() * lights.len() * texels];
-        let of_views = samples.chunks_exact_mut(lights.len() * texels).zip(view.directions());
+        let mut samples = vec![[0.0_f32; 3]; sample_count(size, view, light)?];
+        let (views, lights, texels) = (view.directions(), light.directions(), size * size);
+        let center = |texel: usize| [texel % size, texel / size].map(|at| (at as f64 + 0.5) / size as f64);
+        let of_views = samples.chunks_exact_mut(lights.len() * texels).zip(views);
         for (number, (samples, &view)) in of_views.enumerate() {
             let points: Vec<SeenPoint> =
-                (0..texels * fine * fine).into_par_iter().map(|at| self.seen(place(at, *size, *fine), view)).collect();
+                (0..texels).into_par_iter().map(|texel| self.seen(center(texel), view)).collect();
             samples.par_chunks_exact_mut(texels).zip(lights).for_each(|(patch, &light)| {
-                for (texel, points) in patch.iter_mut().zip(points.chunks_exact(fine * fine)) {
-                    *texel = mean(points.iter().map(|seen| self.reflected(seen, light)), fine * fine);
+                for (texel, seen) in patch.iter_mut().zip(&points) {
+                    *texel = self.reflected(seen, light).map(|value| value as f32);
                 }
             });
-            done(number + 1, sampling.view.directions().len());
+            done(number + 1, views.len());
         }
-        BidirectionalTexture::new(*size, view.clone(), light.clone(), samples)
+        BidirectionalTexture::new(size, view.clone(), light.clone(), samples)
     }
-}
-
-/// The texture coordinates of point `at`; points are ordered by texel, then row by row within the texel.
-fn place(at: usize, size: usize, fine: usize) -> [f64; 2] {
-    let (texel, point) = (at / (fine * fine), at % (fine * fine));
-    let along = |texel: usize, point: usize| (texel as f64 + (point as f64 + 0.5) / fine as f64) / size as f64;
-    [along(texel % size, point % fine), along(texel / size, point / fine)]
-}
-
-fn mean(values: impl Iterator<Item = [f64; 3]>, count: usize) -> [f32; 3] {
-    let mut sum = [0.0; 3];
-    for value in values {
-        (0..3).for_each(|channel| sum[channel] += value[channel]);
-    }
-    sum.map(|sum| (sum / count as f64) as f32)
 }

@@ -43,19 +43,9 @@ pub(super) struct RayInFlight {
 pub(super) struct RaysInFlight {
     places: Vec<RayInFlight>,
     free: Vec<u32>,
-    given: u64,
 }
 
 impl RaysInFlight {
-    /// Number of rays submitted: the next ticket.
-    pub(super) fn given(&self) -> u64 {
-        self.given
-    }
-
-    pub(super) fn give(&mut self, rays: usize) {
-        self.given += rays as u64;
-    }
-
     pub(super) fn start(&mut self, ticket: Ticket, ray: Ray, host: HostRay) -> u32 {
         let flight = RayInFlight { ticket, ray, host, best: Best::default(), on_card: false };
         if let Some(place) = self.free.pop() {

@@ -48,6 +48,8 @@ pub struct RayEngine<'a> {
     passes: Passes,
     parameters: EngineParameters,
     tree: RayTree,
+    /// Number of rays submitted: the next ticket.
+    given: u64,
     flights: RaysInFlight,
     /// Caches of the GPU cells that have rays.
     caches: BTreeMap<usize, Cache>,
@@ -79,6 +81,7 @@ impl<'a> RayEngine<'a> {
             passes,
             tree: RayTree::new(parameters.tree),
             parameters: EngineParameters { rays: parameters.rays.max(1), ..parameters },
+            given: 0,
             flights: RaysInFlight::default(),
             caches: BTreeMap::new(),
             ready: VecDeque::new(),
@@ -91,8 +94,8 @@ impl<'a> RayEngine<'a> {
 
     /// Submits rays, and may answer some waiting rays. The rays get consecutive tickets from the returned one.
     pub fn submit(&mut self, rays: &[Ray]) -> Result<Ticket, EngineError> {
-        let first = self.flights.given();
-        self.flights.give(rays.len());
+        let first = self.given;
+        self.given += rays.len() as u64;
         for i in order(rays.len(), self.parameters.shuffle.map(|seed| (seed, first))) {
             self.take_in(Ticket(first + i as u64), rays[i])?;
         }

@@ -73,12 +73,11 @@ impl Passes {
         let batch = RayBatch::new(side(width), side(ROWS), rays)?;
         let sheet = self.free.pop_front().unwrap_or(self.sheets);
         self.sheets = self.sheets.max(sheet + 1);
-        let drawn = self.card.draw(sheet, mesh, triangles, &batch)?;
         let wait = !matches!(self.readback, Readback::Asynchronous { .. });
-        let (hits, fence) = self.card.read_back(&drawn, &batch, wait)?;
+        let (hits, fence, events) = self.card.test(sheet, mesh, triangles, &batch, wait)?;
         self.flying.push_back(PassInFlight { waiting, hits, fence, sheet });
         // A quad covers the whole screen or no pixel.
-        Ok((drawn.events.fragments.generated / batch.rays().len().max(1) as u64).min(triangles.len() as u64))
+        Ok((events.fragments.generated / batch.rays().len().max(1) as u64).min(triangles.len() as u64))
     }
 
     /// Waits for the oldest pass in flight and removes it.

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crossbar_systems::bi_scale::kernels::{BlockEdges, BlockGrid, DisplayKernel, ListSumKernel, LocalLayout, programs};
+use crossbar_systems::bi_scale::kernels::{BlockEdges, BlockGrid, DisplayKernel, ListSumKernel, LocalLayout};
 use refsim::isa::Version;
 
-use crate::card::{WrittenKernel, checked};
+use crate::card::WrittenKernel;
 use crate::device;
 
 #[test]
@@ -45,15 +45,6 @@ fn passes_for_the_papers_directions() {
     assert_eq!([64, 144].map(|directions| passes(8, directions)), [8, 16]);
     assert_eq!([64, 144].map(|directions| passes(15, directions)), [4, 8]);
     assert_eq!([64, 144].map(|directions| passes(16, directions)), [4, 8]);
-}
-
-#[test]
-fn every_program_runs_on_the_geforce_gtx_280() {
-    for (name, text) in programs().into_iter().filter(|(_, text)| !text.starts_with("ps_2_a")) {
-        for profile in ["gt200", "ideal-fp32"].map(device) {
-            checked(&profile, name.clone(), &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
-        }
-    }
 }
 
 /// Programs have the maximum number of list texels within 512 instructions.

@@ -44,7 +44,7 @@ fn patches_have_a_relief_and_it_can_be_taken_away() {
         let patch = kind.patch(1.0);
         let depth = patch.heights().depth();
         assert!((0.02..0.25).contains(&depth), "{kind}: {depth}");
-        assert_eq!(kind.patch(0.0).heights().depth(), 0.0);
+        assert_eq!(kind.patch(0.0).heights().depth().to_bits(), 0, "not -0, which is printed");
         assert!((kind.patch(2.0).heights().depth() - 2.0 * depth).abs() < 1e-12);
     }
 }
@@ -61,12 +61,16 @@ fn samples_out_of_range_are_refused() {
     let of = |size, count, value: f32| {
         BidirectionalTexture::new(size, directions(1), directions(2), vec![[value; 3]; count]).unwrap_err()
     };
-    let text = [of(0, 0, 1.0), of(2, 15, 1.0), of(2, 16, -1.0), of(2, 16, f32::NAN)].map(|error| error.to_string());
+    let all = directions(64);
+    let huge = PatchKind::Tiles.patch(1.0).texture(1024, &all, &all, &mut |_, _| ()).unwrap_err();
+    let errors = [of(0, 0, 1.0), of(2, 15, 1.0), of(2, 16, -1.0), of(2, 16, f32::NAN), huge];
+    let text = errors.map(|error| error.to_string());
     insta::assert_snapshot!(text.join("\n"), @"
     expected a patch of 1 to 1024 texels along an edge, found 0
     expected 16 samples (1 views x 4 lights x 2 x 2 texels), found 15
     expected finite samples of 0 or more, found another number at view 0, light 0, row 0, column 0
     expected finite samples of 0 or more, found another number at view 0, light 0, row 0, column 0
+    expected at most 715827882 samples, found 17592186044416 (4096 views x 4096 lights x 1024 x 1024 texels)
     ");
 }
 

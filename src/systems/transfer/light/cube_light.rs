@@ -4,12 +4,10 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::disks::{DiskSource, add_disk};
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure, input_error};
 use crate::picture::Picture;
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
-use crate::transfer::grid::{
-    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column, light_texel,
-};
+use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, light_texel};
 
 /// Distant light: finite red, green and blue of each light texel. Only truncated light ([`Self::signed`]) may have
 /// texels below 0.
@@ -22,20 +20,19 @@ impl CubeLight {
     /// Creates a light from radiances by texel index. Fails with [`InputError`] unless there are 6 x 32 x 32, all
     /// finite and at least 0.
     pub fn new(texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
-        if texels.len() != LIGHT_TEXELS {
-            return Err(texels_error(texels.len()));
-        }
-        check(&texels, |texel| texel, 0.0)?;
-        Ok(Self { texels })
+        Self::at_least(0.0, texels)
     }
 
     /// Creates a light from radiances that may be negative, as in truncated light, which oscillates around 0. Fails
     /// with [`InputError`] unless there are 6 x 32 x 32, all finite.
     pub fn signed(texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
-        if texels.len() != LIGHT_TEXELS {
-            return Err(texels_error(texels.len()));
-        }
-        check(&texels, |texel| texel, f64::NEG_INFINITY)?;
+        Self::at_least(f64::NEG_INFINITY, texels)
+    }
+
+    fn at_least(least: f64, texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
+        ensure!(texels.len() == LIGHT_TEXELS, "crossbar::prt::light" =>
+            "expected {LIGHT_TEXELS} texels, six faces of 32x32, found {}", texels.len());
+        check(&texels, |texel| texel, least)?;
         Ok(Self { texels })
     }
 
@@ -81,11 +78,8 @@ impl CubeLight {
     fn decimated(fine: &[[f64; 3]]) -> Result<Self, InputError> {
         let solid_angles = FineDirections::get().solid_angles();
         let texel = |texel: usize| {
-            let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
-            let first = (face * FINE_SIDE + row * SUPERSAMPLES) * FINE_SIDE + column * SUPERSAMPLES;
             let (mut sum, mut whole) = ([0.0; 3], 0.0);
-            for at in (0..SUPERSAMPLES * SUPERSAMPLES).map(|k| first + k / SUPERSAMPLES * FINE_SIDE + k % SUPERSAMPLES)
-            {
+            for at in FineDirections::get().in_texel(texel) {
                 sum.iter_mut().zip(fine[at]).for_each(|(sum, radiance)| *sum += solid_angles[at] * radiance);
                 whole += solid_angles[at];
             }
@@ -177,10 +171,6 @@ fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize, least: f64) -> 
         }
     }
     Ok(())
-}
-
-pub(super) fn texels_error(found: usize) -> InputError {
-    input_error!("crossbar::prt::light" => "expected {LIGHT_TEXELS} texels, six faces of 32x32, found {found}")
 }
 
 /// Converts an error of a sky or a rotation.

@@ -48,10 +48,8 @@ pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 /// Numbers of directions, and vertices with defects.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VisibilityCounts {
-    /// Directions above the horizon of their vertex's normal.
+    /// Directions above the horizon of their vertex.
     pub above: u64,
-    /// Number of these directions behind all triangles on which the vertex lies.
-    pub below_triangles: u64,
     /// Directions in which a ray was cast; the result of all others is certain.
     pub traced: u64,
     /// Directions in which the vertex sees the light.

@@ -18,14 +18,14 @@ const TEXEL_SINE: f64 = 0.034;
 
 /// The fine directions of a vertex in which rays must be cast, and counts of the others.
 #[derive(Debug, Default)]
-pub(super) struct UndecidedDirections {
-    pub(super) fine: Vec<u32>,
-    pub(super) above: u64,
-    pub(super) below_triangles: u64,
+struct UndecidedDirections {
+    fine: Vec<u32>,
+    /// Number of directions above the horizon, including decided ones.
+    above: u64,
 }
 
 /// Sets the bits of directions that are certainly unblocked, and lists the directions that may be blocked.
-pub(super) fn look(
+fn look(
     (frame, origin): (&LocalFrame, &RayOrigin),
     occluders: &Occluders,
     sampling: VisibilitySampling,
@@ -51,10 +51,11 @@ pub(super) fn look(
             if is_below && !sees_below {
                 continue;
             }
-            asked.above += 1;
             if !is_high && origin.is_below_horizon(direction) {
-                asked.below_triangles += 1;
-            } else if is_below || may_be_blocked && skyline.is_marked(SkyPart::of(frame.to_local(direction))) {
+                continue;
+            }
+            asked.above += 1;
+            if is_below || may_be_blocked && skyline.is_marked(SkyPart::of(frame.to_local(direction))) {
                 asked.fine.push(fine as u32);
             } else {
                 bits[fine / 64] |= 1 << (fine % 64);
@@ -64,18 +65,25 @@ pub(super) fn look(
     asked
 }
 
-/// The fine directions above a vertex's horizons, in order, and the number of directions below its triangles.
-pub(super) fn above(frame: &LocalFrame, origin: &RayOrigin, sampling: VisibilitySampling) -> (Vec<u32>, u64) {
+/// Like [`look`], but lists all directions above the horizon.
+fn look_everywhere(
+    (frame, origin): (&LocalFrame, &RayOrigin),
+    _: &Occluders,
+    sampling: VisibilitySampling,
+    _: &mut Vec<u32>,
+    _: &mut [u64],
+) -> UndecidedDirections {
     let sees_below = sampling.horizon == Horizon::Geometry;
-    let is_above = |direction: &DVec3| sees_below || frame.normal().dot(*direction) > 0.0;
-    let all = (0..).zip(sampling.directions().directions()).filter(|(_, direction)| is_above(direction));
-    let (below, open): (Vec<_>, Vec<_>) = all.partition(|(_, direction)| origin.is_below_horizon(**direction));
-    (open.into_iter().map(|(fine, _)| fine).collect(), below.len() as u64)
+    let is_above =
+        |direction: DVec3| (sees_below || frame.normal().dot(direction) > 0.0) && !origin.is_below_horizon(direction);
+    let all = (0..).zip(sampling.directions().directions());
+    let fine: Vec<u32> = all.filter(|(_, direction)| is_above(**direction)).map(|(fine, _)| fine).collect();
+    UndecidedDirections { above: fine.len() as u64, fine }
 }
 
-pub(super) fn set(bits: &mut [u64], fine: u32) {
-    bits[fine as usize / 64] |= 1 << (fine % 64);
-}
+/// The signature of [`look`].
+type Look =
+    fn((&LocalFrame, &RayOrigin), &Occluders, VisibilitySampling, &mut Vec<u32>, &mut [u64]) -> UndecidedDirections;
 
 /// Number of vertices whose rays are cast together.
 const BLOCK: usize = 32;
@@ -125,12 +133,33 @@ impl VisibilityMaps {
         caster: &mut dyn Caster,
         done: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, InputError> {
+        Self::traced((vertices, of), sampling, caster, done, look)
+    }
+
+    /// Like [`Self::trace_sampled`], but casts every ray: the reference for its tests.
+    pub fn trace_all(
+        vertices: &Vertices,
+        of: &[u32],
+        sampling: VisibilitySampling,
+        caster: &mut dyn Caster,
+    ) -> Result<Self, InputError> {
+        Self::traced((vertices, of), sampling, caster, &mut |_, _| (), look_everywhere)
+    }
+
+    fn traced(
+        (vertices, of): (&Vertices, &[u32]),
+        sampling: VisibilitySampling,
+        caster: &mut dyn Caster,
+        done: &mut dyn FnMut(usize, usize),
+        look: Look,
+    ) -> Result<Self, InputError> {
         check(vertices, of)?;
         let occluders = Occluders::new(vertices);
         let rays = Rays { sampling, vertices, origins: origins(vertices, &occluders), length: ray_length(vertices) };
         let mut maps = Self::dark(of, sampling);
         let map_words = sampling.words();
-        maps.counts.unclear = unclear(&rays.origins, of);
+        let is_unclear = |vertex: &&u32| !rays.origins[**vertex as usize].is_clear;
+        maps.counts.unclear = of.iter().filter(is_unclear).copied().collect();
         for (block, of_block) in of.chunks(BLOCK).enumerate() {
             let words = &mut maps.words_mut()[block * BLOCK * map_words..];
             let asked: Vec<(UndecidedDirections, Vec<Ray>)> = words
@@ -148,41 +177,14 @@ impl VisibilityMaps {
             let mut answers = caster.occluded(&all).map_err(cast_error)?.into_iter();
             for (bits, (asked, _)) in words.chunks_mut(map_words).zip(&asked) {
                 for (&fine, _) in asked.fine.iter().zip(answers.by_ref()).filter(|(_, is_blocked)| !is_blocked) {
-                    set(bits, fine);
+                    bits[fine as usize / 64] |= 1 << (fine % 64);
                 }
             }
             for (asked, rays) in &asked {
                 maps.counts.above += asked.above;
-                maps.counts.below_triangles += asked.below_triangles;
                 maps.counts.traced += rays.len() as u64;
             }
             done(block * BLOCK + of_block.len(), of.len());
-        }
-        maps.count_visible();
-        Ok(maps)
-    }
-
-    /// Like [`Self::trace_sampled`], but casts every ray: the reference for its tests.
-    pub fn trace_all(
-        vertices: &Vertices,
-        of: &[u32],
-        sampling: VisibilitySampling,
-        caster: &mut dyn Caster,
-    ) -> Result<Self, InputError> {
-        check(vertices, of)?;
-        let origins = origins(vertices, &Occluders::new(vertices));
-        let rays = Rays { sampling, vertices, origins, length: ray_length(vertices) };
-        let mut maps = Self::dark(of, sampling);
-        maps.counts.unclear = unclear(&rays.origins, of);
-        for (map, &vertex) in of.iter().enumerate() {
-            let (fine, below) = above(&vertices.frames()[vertex as usize], &rays.origins[vertex as usize], sampling);
-            maps.counts.above += fine.len() as u64 + below;
-            let (fine, cast) = rays.of(vertex, &fine);
-            let answers = caster.occluded(&cast).map_err(cast_error)?;
-            let bits = &mut maps.words_mut()[map * sampling.words()..(map + 1) * sampling.words()];
-            fine.iter().zip(answers).filter(|(_, is_blocked)| !is_blocked).for_each(|(&fine, _)| set(bits, fine));
-            maps.counts.below_triangles += below;
-            maps.counts.traced += cast.len() as u64;
         }
         maps.count_visible();
         Ok(maps)
@@ -193,9 +195,4 @@ pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), InputError> {
     let unknown = of.iter().find(|&&vertex| vertex as usize >= vertices.len());
     let (what, expected) = ("a vertex's number", "one below the number of vertices");
     unknown.map_or(Ok(()), |&vertex| require(false, what, expected, f64::from(vertex)))
-}
-
-/// The vertices whose ray origin is not clear of all triangles on which the vertex lies.
-fn unclear(origins: &[RayOrigin], of: &[u32]) -> Vec<u32> {
-    of.iter().copied().filter(|&vertex| !origins[vertex as usize].is_clear).collect()
 }

@@ -17,12 +17,12 @@ use bounds::{Bounds, First};
 use crossbar::geom::exact::{self, Sides};
 use crossbar::geom::{Hit, Mesh, Ray};
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
-use crossbar::ray_engine::{Crossbar, RayBatch, VertexCrossbar};
+use crossbar::ray_engine::{Crossbar, RayBatch, intersect_in_vertices};
 use crossbar::tracer::HostTracer;
 use crossbar::tracer::octree::OctreeParameters;
 use rayon::prelude::*;
 use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
+use refsim::machine::{ExecutorKind, Machine};
 use refsim::num::power_of_two;
 use scene::Scene;
 use std::sync::LazyLock;
@@ -169,9 +169,9 @@ fn the_unit_of_length_is_no_matter_on_the_host_in_the_engine_and_in_the_vertex_u
             engine.trace(rays).expect("the card works")
         };
         let vertex = |mesh: &Mesh, rays: &[Ray]| {
-            let card = VertexCrossbar::new(support::profile("nv20"), ExecutorKind::Batch);
+            let mut machine = Machine::new(support::profile("nv20"), ExecutorKind::Batch);
             let batch = RayBatch::new(rays.len() as u32, 1, rays.to_vec()).expect("a row of rays");
-            card.intersect(mesh, &batch).expect("the card works").hits
+            intersect_in_vertices(&mut machine, mesh, &batch).expect("the card works").hits
         };
         let (r200, fp32) = (|m: &Mesh, r: &[Ray]| engine("r200", m, r), |m: &Mesh, r: &[Ray]| engine("nv35", m, r));
         let finders: [(&str, usize, Find<'_>); 4] =

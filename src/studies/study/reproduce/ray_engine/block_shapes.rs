@@ -9,7 +9,7 @@ use super::pipeline::timed;
 use super::radeon_8500::{mesh, moved_rays};
 use super::{EntryFindings, RunResult, Shared, StudyError, no_time, number, paragraph};
 use crate::geom::exact::Sides;
-use crate::ray_engine::{Crossbar, RayBatch};
+use crate::ray_engine::{Crossbar, RayBatch, Recording};
 use crate::report::{Cell, Table};
 
 const DEVICES: [&str; 2] = ["r200", "nv35"];
@@ -36,7 +36,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         let card = Crossbar::new(profile.clone(), ExecutorKind::Scalar).all_pairs(true);
         for [width, height] in SHAPES {
             let block = RayBatch::new(width, height, rays.rays().to_vec()).on(device)?;
-            let answer = card.intersect_observed(&mesh, &block, Sides::Front, &observer)?;
+            let recording = Recording { new_observer: Some(&observer), done: None };
+            let answer = card.intersect_recorded(&mesh, &block, Sides::Front, recording)?;
             let drawn = timed(device, answer.log)?;
             let traffic = || drawn.record.samplers.iter().filter_map(|sampler| sampler.traffic);
             let misses = [0, 1, 2].map(|size| traffic().map(|seen| seen.misses[size]).sum::<u64>());

@@ -12,7 +12,7 @@ use super::{
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
 use crate::geom::{Mesh, Ray};
-use crate::ray_engine::{Crossbar, RayBatch};
+use crate::ray_engine::{Crossbar, RayBatch, Recording};
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
 use crate::study::leaky_teapot::JudgedRays;
@@ -57,7 +57,7 @@ fn kernels() -> Result<([PaperRow; 2], [Table; 1]), StudyError> {
     let mesh = mesh(TRIANGLES)?;
     let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);
     let rate = |card: &Crossbar, rays: &RayBatch| {
-        let drawn = timed(DEVICE, card.intersect_recorded(&mesh, rays, Sides::Front)?.log)?;
+        let drawn = timed(DEVICE, card.intersect_recorded(&mesh, rays, Sides::Front, Recording::default())?.log)?;
         Ok::<_, StudyError>(drawn.pixels_per_s() / MEGA)
     };
     let (in_bytes, one_origin) = (rate(&card.clone().byte_rays(), &moved_rays(SIDE)?)?, rate(&card, &eye_rays(SIDE)?)?);
@@ -96,7 +96,7 @@ pub(in crate::study::reproduce) fn timed_tests() -> Result<Vec<TimedWork>, Study
     let on = |device| {
         let card = Crossbar::new(Profile::named(device)?, ExecutorKind::Batch).all_pairs(true);
         let card = if device == DEVICE { card.byte_rays() } else { card };
-        let drawn = timed(device, card.intersect_recorded(&mesh, &rays, Sides::Front)?.log)?;
+        let drawn = timed(device, card.intersect_recorded(&mesh, &rays, Sides::Front, Recording::default())?.log)?;
         let items = drawn.record.counts.fragments.generated;
         Ok(TimedWork { items, ..TimedWork::new(PRINTED, device, drawn.cost.total)? })
     };

@@ -7,7 +7,7 @@ use super::equation_11::MEGA;
 use super::pipeline::{model, timed};
 use super::{EntryFindings, RunResult, Shared, StudyError, drawn, figure, number, paragraph, printed_value};
 use crate::geom::teapot::teapot;
-use crate::ray_engine::{RayBatch, VertexCrossbar};
+use crate::ray_engine::{RayBatch, intersect_in_vertices};
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
 
@@ -32,7 +32,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         let rays = RayBatch::new(2, 2, Camera::teapot(2, 2).on(device)?.rays()).on(device)?;
         let mut machine = Machine::new(profile.clone(), ExecutorKind::Batch);
         machine.record(true);
-        VertexCrossbar::new(profile.clone(), ExecutorKind::Batch).intersect_on(&mut machine, &mesh, &rays)?;
+        intersect_in_vertices(&mut machine, &mesh, &rays)?;
         let drawn = timed(device, machine.take_log())?;
         let counts = &drawn.record.counts;
         let instructions = counts.vertex_instructions / counts.vertices.max(1);

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use crossbar_studies::study::reproduce::tested::parse_figures;
 use crossbar_studies::study::reproduce::{Bound, ENTRIES, Judgement, Origin, Paper, PaperFigure, figures, printed};
-use crossbar_systems::ray_engine::model::CostRates;
 
 #[test]
 fn every_figure_has_a_name_of_its_own_and_a_bound_or_a_reason() {
@@ -191,6 +190,6 @@ fn the_fill_rate_of_the_geforce4_is_implied() {
     let value = |id: &str| printed(id).expect("a figure").value;
     let tests = value("ray-engine/ten-triangles-geforce4") * 1e6;
     let readback = value("ray-engine/read-back") * 1e6;
-    let implied = CostRates::implied_fill(tests, 10.0, 4.0, readback) / 1e6;
+    let implied = 10.0 / (10.0 / tests - 4.0 / readback) / 1e6;
     assert_eq!(format!("{implied:.1}"), format!("{:.1}", value("ray-engine/fill-geforce4")));
 }

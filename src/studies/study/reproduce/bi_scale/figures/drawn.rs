@@ -7,7 +7,7 @@ use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning};
 use crate::bi_scale::low_frequency::LowFrequencyTransfer;
 use crate::bi_scale::matrix::SparseMatrix;
-use crate::bi_scale::texture::{PatchKind, TextureSampling};
+use crate::bi_scale::texture::PatchKind;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::geom::Mesh;
 use crate::study::prt::{BiScaleDrawing, BiScaleRendering, CausePictures, LitView, SurfaceTexture, TexturedSurface};
@@ -71,9 +71,8 @@ impl TexturedModel {
     fn texture(&self, side: usize, size: FigureSize) -> Result<SurfaceTexture, StudyError> {
         let directions = |side| LocalDirections::new(side).on(HOST);
         let (view, light) = (directions(size.views)?, directions(side)?);
-        let sampling = TextureSampling { size: size.texels, view, light, samples: 1 };
         let patch = self.patch.patch(1.0);
-        let samples = patch.texture(&sampling, &mut |_, _| ()).on(HOST)?;
+        let samples = patch.texture(size.texels, &view, &light, &mut |_, _| ()).on(HOST)?;
         Ok(SurfaceTexture { name: self.patch.to_string(), samples, patch: Some(patch) })
     }
 }
