@@ -191,6 +191,7 @@ pub fn main() -> ExitCode {
         error::print(problem.into(), cli.json);
         return ExitCode::from(BAD_INPUT);
     }
+    crate::io::protect_inputs();
     let mut out = Out::new(cli.json);
     let result = obey(cli.command, &command_line, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;

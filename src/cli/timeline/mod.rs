@@ -3,8 +3,6 @@
 mod run;
 mod show;
 
-use std::path::PathBuf;
-
 use refsim::timing::Level;
 
 use super::{Out, Problem, Verdict, study};
@@ -15,10 +13,6 @@ use run::{CardRun, TimedLog};
 pub(super) use run::Args;
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    let same = |case: &PathBuf, trace: &PathBuf| matches!((case.canonicalize(), trace.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    if args.case.as_ref().zip(args.perfetto.as_ref()).is_some_and(|(case, trace)| same(case, trace)) {
-        return Err(Problem::usage("`--perfetto` would overwrite the case file", "give another file").into());
-    }
     let run = CardRun::new(args)?;
     let timed = [TimedLog::new(Level::Rates, &run, args)?, TimedLog::new(Level::Pipeline, &run, args)?];
     if let Some(path) = &args.perfetto {
