@@ -17,9 +17,9 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::form_factor::clipped;
 use super::patch::Patch;
 use crate::geom::exact::{Sides, Tracer};
+use crate::geom::polygon::clipped;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::offset::scene_clearance;

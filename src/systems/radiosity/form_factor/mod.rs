@@ -17,7 +17,6 @@ use crate::error::{InputError, ensure, input_error};
 use crate::linalg::Matrix;
 
 pub use closure::RowSums;
-pub(super) use polygon::clipped;
 pub use polygon::point_to_polygon;
 pub use visibility::VisibilityParameters;
 

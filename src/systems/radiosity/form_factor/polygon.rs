@@ -5,6 +5,7 @@
 use std::f64::consts::PI;
 
 use crate::elementary::atan2;
+use crate::geom::polygon::clipped;
 use crate::radiosity::Patch;
 use glam::DVec3;
 
@@ -27,20 +28,4 @@ pub fn point_to_polygon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
 /// The part of a polygon in front of a patch's plane.
 pub(super) fn in_front_of(corners: &[DVec3], patch: &Patch) -> Vec<DVec3> {
     clipped(corners, |corner| patch.height(corner))
-}
-
-/// The part of a convex polygon where a linear function is not negative.
-pub(in crate::radiosity) fn clipped(corners: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
-    let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (i, &here) in corners.iter().enumerate() {
-        let next = corners[(i + 1) % corners.len()];
-        let (h, k) = (height(here), height(next));
-        if h >= 0.0 {
-            kept.push(here);
-        }
-        if (h > 0.0 && k < 0.0) || (h < 0.0 && k > 0.0) {
-            kept.push(here + h / (h - k) * (next - here));
-        }
-    }
-    kept
 }

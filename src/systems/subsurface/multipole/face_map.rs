@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::moments::{Covariance, Moments, size_squared};
 use crate::atlas::FacePlace;
+use crate::geom::polygon::clipped;
 
 /// A face and its rectangle. In the rectangle's coordinates, from 0 to 1, the corners (0, 0), (1, 0), (1, 1), (0, 1)
 /// map to a, b, m, c, where m is the middle of the edge b c.
@@ -71,7 +72,7 @@ impl FaceMap {
     pub(super) fn outlines(&self, Window { s: [s0, s1], t: [t0, t1] }: Window) -> [Vec<DVec3>; 2] {
         let corners = [(s0, t0), (s1, t0), (s1, t1), (s0, t1)].map(|(s, t)| DVec3::new(s, t, 0.0));
         let on_face = |at: DVec3| self.origin + at.x.max(at.y) * self.e + at.y.max(2.0 * at.y - at.x) * self.f;
-        [1.0, -1.0].map(|side| clip(&corners, |at| side * (at.x - at.y)).into_iter().map(on_face).collect())
+        [1.0, -1.0].map(|side| clipped(&corners, |at| side * (at.x - at.y)).into_iter().map(on_face).collect())
     }
 
     /// The offset between corresponding points of two equally large windows on the same side of the diagonal.
@@ -96,21 +97,6 @@ impl FaceMap {
         let size_squared = size_squared(&covariance, radius_squared);
         Moments { area, point: self.origin + offset, covariance, size_squared }
     }
-}
-
-/// The part of a convex polygon where a linear function is not negative.
-fn clip(outline: &[DVec3], function: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
-    let mut part = Vec::with_capacity(outline.len() + 1);
-    for (&a, &b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
-        let [at_a, at_b] = [a, b].map(&function);
-        if at_a >= 0.0 {
-            part.push(a);
-        }
-        if (at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0) {
-            part.push(a + at_a / (at_a - at_b) * (b - a));
-        }
-    }
-    part
 }
 
 /// The corners of a window, and the points at which the diagonal enters and leaves it.
