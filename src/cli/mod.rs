@@ -202,6 +202,7 @@ pub fn main() -> ExitCode {
         error::print(problem.into());
         return ExitCode::from(BAD_INPUT);
     }
+    crate::io::protect_inputs();
     let mut out = Out::new(cli.json);
     let result = obey(cli.command, &command_line, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;

@@ -62,7 +62,7 @@ const CROSSBAR: Law = (
         ("tracer", "error geom"),
         ("scene", "error elementary geom linalg"),
         ("io", "error names picture geom scene linalg"),
-        ("card", "tracer geom scene"),
+        ("card", "tracer picture geom scene"),
         ("atlas", "error elementary geom"),
         ("report", "error elementary picture"),
         ("options", "geom io"),

@@ -120,7 +120,7 @@ fn disagreements_can_be_pasted() {
             .filter_map(|word| word.parse::<f32>().ok())
             .map(f32::to_bits)
             .collect();
-        let triangle = wrong.expected.as_ref().expect("a surface").triangles[0];
+        let triangle = wrong.expected.as_ref().expect("a surface").triangle;
         let corners = mesh.corners(triangle).expect("a triangle");
         // The type `[[f32; 3]; 3]` contributes two numbers itself.
         let expected = [wrong.origin, wrong.direction].into_iter().flatten().chain([3.0, 3.0]);

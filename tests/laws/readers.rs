@@ -56,7 +56,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
-    fn arbitrary_bytes_do_no_harm(bytes in prop::collection::vec(any::<u8>(), 0..300), kept in 0_usize..40) {
+    fn arbitrary_bytes_do_no_harm(bytes in prop::collection::vec(any::<u8>(), 0..300), kept in 0_usize..400) {
         for good in GOOD.iter() {
             (good.read)(&bytes, Path::new(good.name));
             (good.read)(&[&good.bytes[..kept.min(good.bytes.len())], &bytes].concat(), Path::new(good.name));
@@ -165,6 +165,13 @@ fn good_files() -> Vec<GoodFile> {
         file("m.gltf", stored("fixtures/models/square.gltf"), |bytes, name| {
             let mut none = |_: &Path| Err(std::io::Error::other("no file beside it"));
             drop(io::parse_gltf(bytes, name, &mut none));
+        }),
+        file("a.mtl", stored("docs/examples/room.mtl"), |bytes, name| drop(io::parse_mtl(bytes, name))),
+        file("s.obj", stored("docs/examples/room.obj"), |bytes, name| {
+            drop(io::parse_scene(bytes, name, &mut |_: &Path| Ok(b"newmtl red\n".to_vec())));
+        }),
+        file("s.toml", stored("docs/examples/room.toml"), |bytes, name| {
+            drop(io::scene_file::parse(&String::from_utf8_lossy(bytes), name));
         }),
         file("r.csv", stored("docs/examples/rays.csv"), |bytes, name| drop(io::parse_rays(bytes, name))),
         file("l.csv", b"face,row,column,r,g,b\n0,0,0,1,1,1\n".to_vec(), |bytes, name| {

@@ -1,10 +1,4 @@
-//! The only definition of equality: of numbers, pictures, and traces of a program.
-//!
-//! - [`f32_ulps`]: distance between two f32 in ULPs; the only function here that needs no emulator.
-//! - [`Number`]: two numbers with the same layout are equal if their bits are equal; two numbers with different
-//!   layouts, if their values are equal. [`ulps`] is the distance between two numbers.
-//! - [`images`], [`depths`]: comparison of every stored bit of two surfaces, with statistics of the difference.
-//! - [`first_difference`]: the pass, stage, instruction and component at which two traces of one pixel first differ.
+//! The only definition of equality: of numbers, pictures, and traces of a program. Only [`f32_ulps`] needs no emulator.
 
 mod single;
 

@@ -143,14 +143,21 @@ pub fn differing_corner(left: &[Vertex; 3], right: &[Vertex; 3]) -> Option<(usiz
             components.push(("oFog".to_owned(), v.fog));
             components
         };
-        let single = |bits| Number { format: Format::FP32, bits };
-        let pairs = vectors(a).into_iter().zip(vectors(b)).map(|((name, a), (_, b))| (name, single(a), single(b)));
-        pairs.filter(|(_, a, b)| !a.equals(b)).map(|(name, a, b)| Compared::registers(name, &a, &b)).collect()
+        unequal(vectors(a).into_iter().zip(vectors(b)).map(|((name, a), (_, b))| (name, single(a), single(b))))
     };
     left.iter().zip(right).enumerate().find_map(|(corner, (a, b))| {
         let values: Vec<Compared> = differing(a, b);
         (!values.is_empty()).then_some((corner, values))
     })
+}
+
+fn single(bits: u32) -> Number {
+    Number { format: Format::FP32, bits }
+}
+
+/// The named pairs of numbers that are not equal.
+fn unequal(pairs: impl Iterator<Item = (String, Number, Number)>) -> Vec<Compared> {
+    pairs.filter(|(_, a, b)| !a.equals(b)).map(|(name, a, b)| Compared::registers(name, &a, &b)).collect()
 }
 
 struct Pair<'a> {
@@ -161,32 +168,25 @@ struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    fn numbers(&self, a: u32, b: u32) -> (Number, Number) {
-        (Number { format: self.left.format, bits: a }, Number { format: self.right.format, bits: b })
-    }
-
     fn registers(&self, name: impl Fn(usize) -> String, a: [u32; 4], b: [u32; 4], mask: Mask) -> Vec<Compared> {
-        let pairs = mask.components().map(|c| (c, self.numbers(a[c], b[c])));
-        pairs.filter(|(_, (a, b))| !a.equals(b)).map(|(c, (a, b))| Compared::registers(name(c), &a, &b)).collect()
+        let [left, right] = [self.left, self.right].map(|side| move |bits| Number { format: side.format, bits });
+        unequal(mask.components().map(|c| (name(c), left(a[c]), right(b[c]))))
     }
 
     fn inputs(&self) -> Option<(TraceStage, Vec<Compared>)> {
-        let single = |bits| Number { format: Format::FP32, bits };
         let (a, b) = (&self.a.shading.input, &self.b.shading.input);
         let vectors = a.t.iter().zip(&b.t).enumerate().map(|(n, v)| (RegisterFile::Texture, n, v));
         let vectors = vectors.chain(a.v.iter().zip(&b.v).enumerate().map(|(n, v)| (RegisterFile::Input, n, v)));
         let vectors = vectors.chain([(RegisterFile::WindowPosition, 0, (&a.position, &b.position))]);
         let program = self.left.program;
-        let mut values: Vec<Compared> = vectors
+        let pairs = vectors
             .flat_map(|(file, n, (a, b))| {
                 let register = Register::new(file, n as u16);
                 (0..4).map(move |c| (component(program, &register, c), single(a[c]), single(b[c])))
             })
             .chain([("fog".to_owned(), single(a.fog), single(b.fog))])
-            .chain([("depth".to_owned(), single(a.depth), single(b.depth))])
-            .filter(|(_, a, b)| !a.equals(b))
-            .map(|(name, a, b)| Compared::registers(name, &a, &b))
-            .collect();
+            .chain([("depth".to_owned(), single(a.depth), single(b.depth))]);
+        let mut values = unequal(pairs);
         if !values.is_empty() {
             return Some((TraceStage::Input, values));
         }

@@ -38,13 +38,9 @@ impl Mesh {
         });
         let triangles = triangles.collect();
         let positions = of.iter().map(|&vertex| self.positions()[vertex]).collect();
-        let mesh = Self::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
-        let mesh = match self.texcoords() {
-            Some(texture) => {
-                mesh.and_then(|mesh| mesh.with_texcoords(of.iter().map(|&vertex| texture[vertex]).collect()))
-            }
-            None => mesh,
-        };
-        mesh.expect("places and normals of a mesh are finite")
+        let texcoords = self.texcoords().map(|texture| of.iter().map(|&vertex| texture[vertex]).collect());
+        let mesh = Self::new(positions, triangles);
+        mesh.and_then(|mesh| mesh.with_attributes(Some(normals), texcoords))
+            .expect("places and normals of a mesh are finite")
     }
 }

@@ -58,12 +58,10 @@ impl Mesh {
             triangles.len(),
             i32::MAX
         );
-        for (vertex, position) in positions.iter().enumerate() {
-            if let Some(&value) = position.iter().find(|value| !value.is_finite()) {
-                return Err(input_error!(
-                    "vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number"
-                ));
-            }
+        if let Some((vertex, value)) = not_finite(&positions) {
+            return Err(input_error!(
+                "vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number"
+            ));
         }
         let vertices = positions.len();
         for (triangle, corners) in triangles.iter().enumerate() {
@@ -90,6 +88,16 @@ impl Mesh {
         Ok(self)
     }
 
+    /// Adds normals and texture coordinates, where there are any.
+    pub fn with_attributes(
+        self,
+        normals: Option<Vec<[f32; 3]>>,
+        texcoords: Option<Vec<[f32; 2]>>,
+    ) -> Result<Self, InputError> {
+        let mesh = if let Some(normals) = normals { self.with_normals(normals)? } else { self };
+        if let Some(texcoords) = texcoords { mesh.with_texcoords(texcoords) } else { Ok(mesh) }
+    }
+
     /// Rotates every position and normal.
     pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         self.positions.iter_mut().chain(&mut self.normals).for_each(|vector| *vector = rotation(*vector));
@@ -114,14 +122,12 @@ impl Mesh {
     fn check_attribute<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<(), InputError> {
         let vertices = self.positions.len();
         ensure!(values.len() == vertices, "found {} {what}, expected one per vertex: {vertices}", values.len());
-        for (vertex, value) in values.iter().enumerate() {
-            if let Some(&value) = value.iter().find(|value| !value.is_finite()) {
-                return Err(input_error!(
-                    "among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers"
-                ));
-            }
+        match not_finite(values) {
+            None => Ok(()),
+            Some((vertex, value)) => Err(input_error!(
+                "among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers"
+            )),
         }
-        Ok(())
     }
 
     /// Vertex positions.
@@ -169,18 +175,11 @@ impl Mesh {
     pub fn bounds(&self) -> Option<[[f32; 3]; 2]> {
         let mut corners = self.iter_corners().flatten();
         let first = corners.next()?;
-        let mut bounds = [first, first];
-        for corner in corners {
-            for axis in 0..3 {
-                if corner[axis] < bounds[0][axis] {
-                    bounds[0][axis] = corner[axis];
-                }
-                if corner[axis] > bounds[1][axis] {
-                    bounds[1][axis] = corner[axis];
-                }
-            }
-        }
-        Some(bounds)
+        Some(corners.fold([first, first], |[low, high], at| {
+            let lower = |axis: usize| if at[axis] < low[axis] { at[axis] } else { low[axis] };
+            let higher = |axis: usize| if at[axis] > high[axis] { at[axis] } else { high[axis] };
+            [[0, 1, 2].map(lower), [0, 1, 2].map(higher)]
+        }))
     }
 
     /// Area of a triangle; 0 for an id that does not exist.
@@ -219,6 +218,12 @@ impl Mesh {
             _ => Contact::Edge,
         }
     }
+}
+
+/// The first vertex with a number that is not finite, and that number.
+fn not_finite<const N: usize>(values: &[[f32; N]]) -> Option<(usize, f32)> {
+    let odd = |value: &[f32; N]| value.iter().copied().find(|number| !number.is_finite());
+    values.iter().enumerate().find_map(|(vertex, value)| Some((vertex, odd(value)?)))
 }
 
 /// Builder that merges vertices with bit-identical positions.

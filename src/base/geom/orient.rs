@@ -9,19 +9,6 @@ impl Mesh {
     /// orientation are flipped; on ties, those unlike the first triangle. Triangles are connected only by edges of
     /// exactly two triangles. A surface without a consistent orientation (a Moebius strip) is left unchanged. Triangles
     /// whose area is uncertain after rounding of their corners are ignored.
-    ///
-    /// ```
-    /// # extern crate crossbar_base as crossbar;
-    /// use crossbar::geom::Mesh;
-    ///
-    /// # fn main() -> Result<(), crossbar::error::InputError> {
-    /// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    /// let square = Mesh::new(corners, vec![[0, 1, 2], [0, 3, 2]])?;
-    /// assert_eq!(square.misoriented(), [1]);
-    /// assert!(square.turned_round(&[1]).misoriented().is_empty());
-    /// # Ok(())
-    /// # }
-    /// ```
     pub fn misoriented(&self) -> Vec<u32> {
         let (welded, ids) = self.welded_with_area();
         let adjacency = welded.adjacency();

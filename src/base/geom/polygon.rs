@@ -75,6 +75,21 @@ pub fn triangulate(outline: &[[f32; 3]]) -> (Vec<[usize; 3]>, Option<PolygonFaul
     (clipped.unwrap_or(fan), fault)
 }
 
+/// The part of a convex polygon where a linear function is not negative.
+pub fn clipped(corners: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
+    let mut kept = Vec::with_capacity(corners.len() + 1);
+    for (&here, &next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let (h, k) = (height(here), height(next));
+        if h >= 0.0 {
+            kept.push(here);
+        }
+        if (h > 0.0 && k < 0.0) || (h < 0.0 && k > 0.0) {
+            kept.push(here + h / (h - k) * (next - here));
+        }
+    }
+    kept
+}
+
 /// Normal with twice the area as length: the sum of cross products of successive corners relative to the first.
 fn normal(outline: &[[f32; 3]]) -> DVec3 {
     let first = wide(outline[0]);

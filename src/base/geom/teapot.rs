@@ -14,14 +14,12 @@
 //! | the handle's two ends (they pass through the body unjoined) | 2 each | 2 N + 2 N |
 //! | the spout's base (inside the body) and its tip (open) | 2 each | 2 N + 2 N |
 //!
-//! Body and bottom are joined. At the poles of lid and bottom a patch's first row is a single point, so that each
-//! column has one triangle instead of two: there are `64 N^2 - 8 N` triangles, and none is degenerate. N = 1 is a
-//! special case: the rings of handle and spout have two vertices, so that both collapse to double sheets. The end edges
-//! of the sheets have two triangles, so only the 8 edges of mouth and lid are open; the middle edge of the handle has
-//! four triangles. The last segment of the spout, whose four corners are collinear, is omitted. 52 triangles remain.
+//! At the poles of lid and bottom each column has one triangle instead of two: there are `64 N^2 - 8 N` triangles, and
+//! none is degenerate. At N = 1 handle and spout collapse to double sheets: only the 8 edges of mouth and lid are open,
+//! the middle edge of the handle has four triangles, the last segment of the spout is omitted, and 52 triangles remain.
 //!
-//! The lower end of the handle shares a corner with the body (control point 69): the two parts share that vertex, but
-//! no edge. Front faces (counter-clockwise) face outwards; z is up and the spout points along +x.
+//! The lower end of the handle shares a vertex with the body (control point 69), but no edge. Front faces
+//! (counter-clockwise) face outwards; z is up and the spout points along +x.
 
 use num_bigint::BigUint;
 

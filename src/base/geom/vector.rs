@@ -37,22 +37,6 @@ pub fn least_axis(direction: DVec3) -> DVec3 {
     }
 }
 
-/// The part of a convex polygon where a linear function is not negative.
-pub fn clipped(corners: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
-    let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (i, &here) in corners.iter().enumerate() {
-        let next = corners[(i + 1) % corners.len()];
-        let (h, k) = (height(here), height(next));
-        if h >= 0.0 {
-            kept.push(here);
-        }
-        if (h > 0.0 && k < 0.0) || (h < 0.0 && k > 0.0) {
-            kept.push(here + h / (h - k) * (next - here));
-        }
-    }
-    kept
-}
-
 /// Bits of a position as a key for equal positions: -0 becomes +0.
 pub fn place_bits(place: [f32; 3]) -> [u32; 3] {
     place.map(|value| (value + 0.0).to_bits())

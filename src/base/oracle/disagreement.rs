@@ -6,15 +6,14 @@ use std::fmt;
 use super::hard::Aim;
 use crate::compare::shortest;
 use crate::error::InputError;
-use crate::geom::{ExactT, Hit, Ray};
+use crate::geom::{ExactT, Hit, NearestHit, Ray};
 
 /// Kinds of wrong hits, worst first.
 ///
-/// Rounding in a correct intersector can cause the last three kinds. [`DisagreementKind::Silhouette`] and
-/// [`DisagreementKind::Start`] are correct for a ray within a few ULPs of the given ray
-/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)), stored in [`Disagreement::right_for`]. No nearby
-/// ray makes a leak correct: at an edge whose two triangles face the same way, seen along the ray, every nearby ray
-/// hits one of the two.
+/// Rounding in a correct intersector can cause the last three kinds: for [`DisagreementKind::Silhouette`] and
+/// [`DisagreementKind::Start`], [`Disagreement::right_for`] is a ray within a few ULPs
+/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)) for which the result is correct. No nearby ray makes
+/// a leak correct: at an edge whose two triangles face the same way, every nearby ray hits one of the two.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DisagreementKind {
@@ -69,11 +68,6 @@ impl DisagreementKind {
         matches!(self, Self::Leak | Self::LeakThrough)
     }
 
-    /// Returns `true` if a surface was hit that does not exist, for this ray and all nearby rays.
-    pub const fn is_false_hit(self) -> bool {
-        matches!(self, Self::NoSuchTriangle | Self::FalseHit | Self::BackFace | Self::WrongTriangle)
-    }
-
     /// Name: `leak`, `wrong neighbour`.
     pub const fn name(self) -> &'static str {
         match self {
@@ -98,15 +92,6 @@ impl fmt::Display for DisagreementKind {
     }
 }
 
-/// Exact first hit of a ray.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Expected {
-    /// All triangles at the first t, in ascending order; each is a correct answer.
-    pub triangles: Vec<u32>,
-    /// First t, in multiples of the ray's direction.
-    pub t: ExactT,
-}
-
 /// Ray with a wrong hit.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
@@ -122,7 +107,7 @@ pub struct Disagreement {
     /// Kind of error.
     pub kind: DisagreementKind,
     /// Exact first hit, if there is one.
-    pub expected: Option<Expected>,
+    pub expected: Option<NearestHit>,
     /// Hit of the intersector, if there is one.
     pub found: Option<Hit>,
     /// Number of f32 steps between the found t and the exact first t rounded to f32. `None` if only one side has a t,
@@ -167,7 +152,7 @@ impl Disagreement {
 
     fn write_found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(Hit { triangle, t }) = self.found else { return f.write_str(", found nothing") };
-        write!(f, ", found triangle {triangle} at t = {}", short(t))?;
+        write!(f, ", found triangle {triangle} at t = {}", shortest(t))?;
         match self.t_ulps {
             Some(0) | None => {}
             Some(1) => f.write_str(", 1 ULP off")?,
@@ -194,15 +179,9 @@ struct ShownVector([f32; 3]);
 
 impl fmt::Display for ShownVector {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.map(short);
+        let [x, y, z] = self.0.map(shortest);
         write!(f, "({x}, {y}, {z})")
     }
-}
-
-/// Shortest text that reads back to the same f32, with an exponent if the number is far from 1.
-fn short(x: f32) -> String {
-    let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
-    if plain { format!("{x}") } else { format!("{x:e}") }
 }
 
 impl fmt::Display for Disagreement {
@@ -215,10 +194,10 @@ impl fmt::Display for Disagreement {
         write!(f, " from {from} along {along}: {}: expected ", self.kind)?;
         match &self.expected {
             None => f.write_str("nothing")?,
-            Some(Expected { triangles, t }) => {
-                let mut names = triangles.iter().take(4).map(u32::to_string).collect::<Vec<_>>().join(" or ");
-                if triangles.len() > 4 {
-                    names += &format!(" or {} more", triangles.len() - 4);
+            Some(NearestHit { ties, t, .. }) => {
+                let mut names = ties.iter().take(4).map(u32::to_string).collect::<Vec<_>>().join(" or ");
+                if ties.len() > 4 {
+                    names += &format!(" or {} more", ties.len() - 4);
                 }
                 write!(f, "triangle {names} at t = {}", shortest(t.to_f64()))?;
             }

@@ -102,18 +102,6 @@ impl<R: JudgedRay> JudgedRay for &R {
 /// Generates at most `each` rays of each of the six [`Aim`]s for a mesh of any size, spread over it: at most 6 times
 /// `each` in all, fewer if the mesh has too few edges, vertices or triangles to aim at. The same seed gives the same
 /// rays; an empty mesh gives none. A thousand rays of each aim at 1,000 triangles take 0.13 s in a debug build.
-///
-/// ```
-/// # extern crate crossbar_base as crossbar;
-/// use crossbar::geom::teapot::teapot;
-/// use crossbar::oracle::{Aim, hard_rays};
-///
-/// let mesh = teapot(2).expect("a rate in range");
-/// let rays = hard_rays(&mesh, 100, 7);
-/// assert!(rays.len() > 500 && rays.len() <= 6 * 100);
-/// assert_eq!(rays, hard_rays(&mesh, 100, 7));
-/// assert!(rays.iter().filter(|hard| hard.aim == Aim::Axis).all(|hard| hard.ray.direction().contains(&0.0)));
-/// ```
 pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
     let Some(place) = MeshExtent::of(mesh) else { return Vec::new() };
     let rng = CounterRng::new(seed);

@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::disagreement::{Disagreement, DisagreementKind, Expected};
+use super::disagreement::{Disagreement, DisagreementKind};
 use super::hard::{Aim, JudgedRay};
 use super::nearby::{moved, passes_contact, passes_corner_at, turned};
 use super::{Report, Tolerance};
 use crate::compare::f32_ulps as ulps;
 use crate::error::{InputError, ensure};
-use crate::geom::classify::{Candidate, HitVerdict, classify};
+use crate::geom::classify::{HitVerdict, classify};
 use crate::geom::exact::{self, NearestHit, Sides, Tracer};
 use crate::geom::{ExactT, Hit, Mesh, Ray};
 
@@ -92,8 +92,7 @@ impl<'a> Oracle<'a> {
         rays: &[R],
         intersector: impl FnMut(&Ray) -> Option<Hit>,
     ) -> Result<(), Box<Report>> {
-        let report = self.examine(rays, intersector);
-        if report.agrees() { Ok(()) } else { Err(Box::new(report)) }
+        self.examine(rays, intersector).verdict()
     }
 
     /// Checks by [`Oracle::examine`] that the surface has no holes.
@@ -102,8 +101,7 @@ impl<'a> Oracle<'a> {
         rays: &[R],
         intersector: impl FnMut(&Ray) -> Option<Hit>,
     ) -> Result<(), Box<Report>> {
-        let leaks = self.examine(rays, intersector).only(DisagreementKind::is_leak);
-        if leaks.agrees() { Ok(()) } else { Err(Box::new(leaks)) }
+        self.examine(rays, intersector).only(DisagreementKind::is_leak).verdict()
     }
 
     /// Checks by [`Oracle::examine`] that rounding explains every result that is not exact
@@ -114,32 +112,25 @@ impl<'a> Oracle<'a> {
         rays: &[R],
         intersector: impl FnMut(&Ray) -> Option<Hit>,
     ) -> Result<(), Box<Report>> {
-        let wrong = self.examine(rays, intersector).retain(|wrong| !wrong.is_rounding());
-        if wrong.agrees() { Ok(()) } else { Err(Box::new(wrong)) }
+        self.examine(rays, intersector).retain(|wrong| !wrong.is_rounding()).verdict()
     }
 
     /// Asserts [`Oracle::agrees`].
     #[track_caller]
     pub fn assert_agrees<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
-        if let Err(report) = self.agrees(rays, intersector) {
-            panic!("{}", report.with_aims(rays));
-        }
+        assert_ok(self.agrees(rays, intersector), rays);
     }
 
     /// Asserts [`Oracle::watertight`].
     #[track_caller]
     pub fn assert_watertight<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
-        if let Err(report) = self.watertight(rays, intersector) {
-            panic!("{}", report.with_aims(rays));
-        }
+        assert_ok(self.watertight(rays, intersector), rays);
     }
 
     /// Asserts [`Oracle::faithful`]: no leaks and no false hits.
     #[track_caller]
     pub fn assert_faithful<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
-        if let Err(report) = self.faithful(rays, intersector) {
-            panic!("{}", report.with_aims(rays));
-        }
+        assert_ok(self.faithful(rays, intersector), rays);
     }
 
     fn report<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Report {
@@ -167,8 +158,7 @@ impl<'a> Oracle<'a> {
     ) -> Option<Disagreement> {
         let corners = found.and_then(|hit| self.mesh().corners(hit.triangle));
         let meets = |sides| exact::intersect(ray, &corners?, sides);
-        let candidate = Candidate { triangle: found.map(|hit| hit.triangle), t: found.map_or(0.0, |hit| hit.t) };
-        let verdict = classify(self.mesh(), nearest.as_ref(), candidate).verdict;
+        let verdict = classify(self.mesh(), nearest.as_ref(), found);
         let t_ulps = found.zip(nearest.as_ref()).and_then(|(hit, nearest)| ulps(nearest.t.to_f32(), hit.t));
         let right_t = |nearest: &NearestHit, hit: Hit| self.tolerance.allows(hit.t, &nearest.t, t_ulps);
         // Behind the first by less than the tolerance of t.
@@ -215,7 +205,6 @@ impl<'a> Oracle<'a> {
         let shown = found.filter(|_| corners.is_some()).map(|hit| hit.triangle);
         let shown = shown.or_else(|| nearest.as_ref().map(|nearest| nearest.triangle));
         let corners = shown.and_then(|triangle| self.mesh().corners(triangle));
-        let expected = nearest.map(|nearest| Expected { triangles: nearest.ties, t: nearest.t });
         let (origin, direction) = (ray.origin(), ray.direction());
         Some(Disagreement {
             ray: place,
@@ -223,7 +212,7 @@ impl<'a> Oracle<'a> {
             origin,
             direction,
             kind,
-            expected,
+            expected: nearest,
             found,
             t_ulps,
             met_at,
@@ -301,5 +290,12 @@ impl<'a> Oracle<'a> {
             None if passed => (Silhouette, None),
             _ => (kind, right),
         }
+    }
+}
+
+#[track_caller]
+fn assert_ok<R: JudgedRay>(result: Result<(), Box<Report>>, rays: &[R]) {
+    if let Err(report) = result {
+        panic!("{}", report.with_aims(rays));
     }
 }

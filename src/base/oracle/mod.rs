@@ -1,5 +1,5 @@
 //! An oracle for tests of ray-triangle intersectors: it takes a mesh, rays and your hits, and returns every
-//! disagreement with exact arithmetic.
+//! disagreement with exact arithmetic. docs/examples/foreign_intersector.md is an introduction.
 //!
 //! An [`Oracle`] decides first hits on the f32 values as given ([`crate::geom::exact`]) and classifies each result that
 //! differs as a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the correct triangle, a t beyond the
@@ -60,7 +60,7 @@ mod report;
 mod tolerance;
 
 pub use aims::AimCounts;
-pub use disagreement::{Disagreement, DisagreementKind, Expected};
+pub use disagreement::{Disagreement, DisagreementKind};
 pub use hard::{Aim, HardRay, JudgedRay, hard_rays};
 pub use judge::Oracle;
 pub use report::Report;

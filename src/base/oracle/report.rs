@@ -51,6 +51,11 @@ impl Report {
         self.disagreements.is_empty()
     }
 
+    /// The report as an error unless every result is correct.
+    pub(super) fn verdict(self) -> Result<(), Box<Self>> {
+        if self.agrees() { Ok(()) } else { Err(Box::new(self)) }
+    }
+
     /// Wrong results, worst first: by [`DisagreementKind`], then by the error of t, then by index.
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements

@@ -40,7 +40,7 @@ impl Tolerance {
     pub(super) fn allows(self, t: f32, exact: &ExactT, ulps: Option<u64>) -> bool {
         self.ulps == u32::MAX
             || ulps.is_some_and(|ulps| ulps <= u64::from(self.ulps))
-            || (self.absolute > 0.0 && t_error(exact, t).absolute <= self.absolute)
+            || (self.absolute > 0.0 && t_error(exact, t) <= self.absolute)
     }
 }
 

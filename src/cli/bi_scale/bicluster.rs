@@ -10,7 +10,7 @@ use crate::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
-use crate::cli::{Problem, ProgressBar, given};
+use crate::cli::{Problem, ProgressBar};
 use crate::error::InputError;
 use crate::report::{Cell, Findings, Table};
 

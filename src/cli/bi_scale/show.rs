@@ -11,7 +11,7 @@ use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{Problem, given};
+use crate::cli::Problem;
 use crate::error::InputError;
 use crate::io::{write_file, write_matrix_market};
 use crate::report::{Cell, Findings, Table};

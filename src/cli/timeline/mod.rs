@@ -5,7 +5,7 @@ mod show;
 
 use refsim::timing::Level;
 
-use super::{Out, Problem, Verdict, given, study};
+use super::{Out, Problem, Verdict, study};
 use crate::io::write_file;
 use crate::study::timeline_trace::trace;
 use run::{CardRun, TimedLog};

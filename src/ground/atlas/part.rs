@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::place::FacePlace;
 use super::surface::combined;
-use crate::geom::vector::clipped;
+use crate::geom::polygon::clipped;
 
 /// Part of a face under a rectangle of its texels: one or two flat convex polygons, on both sides of the diagonal.
 #[derive(Debug, Clone, PartialEq)]

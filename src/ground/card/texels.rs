@@ -4,6 +4,8 @@ use refsim::machine::{Machine, MachineError, TextureId};
 use refsim::num::Format;
 use refsim::texture::{Image, SignedTexelMinimum, TargetRounding, TexelFormat, TextureError, TextureKind};
 
+use crate::picture::Picture;
+
 /// Texels of four f32, row by row. A vector is one row: a 1-D texture.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Texels {
@@ -35,6 +37,12 @@ impl Texels {
     /// Red, green and blue of each texel, row by row.
     pub fn colors(&self) -> Vec<[f64; 3]> {
         self.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect()
+    }
+
+    /// Red, green and blue as a picture of linear light.
+    pub fn picture(&self) -> Picture {
+        let pixels: Vec<[f32; 3]> = self.texels.iter().map(|&[red, green, blue, _]| [red, green, blue]).collect();
+        Picture::rgb(self.width as u32, self.height as u32, &pixels)
     }
 
     fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {

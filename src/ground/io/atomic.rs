@@ -1,9 +1,11 @@
 //! Atomic writes: a file is written beside its place, then renamed into it. A killed process leaves at most
 //! `.crossbar-XXXXXX` behind.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use tempfile::TempDir;
 use thiserror::Error;
@@ -19,9 +21,31 @@ pub enum WriteError {
     /// The file cannot be written.
     #[error("cannot write {}", path.display())]
     File { path: PathBuf, source: io::Error },
+    /// The file was read by this process, and its inputs are protected ([`protect_inputs`]).
+    #[error("cannot write {}: the command reads this file; choose another place", path.display())]
+    Input { path: PathBuf },
     /// The name is not a plain path below the folder.
     #[error("expected the name of a file below the output folder, found {}", name.display())]
     Name { name: PathBuf },
+}
+
+/// Canonical paths of the files that were read since [`protect_inputs`].
+static INPUTS: OnceLock<Mutex<BTreeSet<PathBuf>>> = OnceLock::new();
+
+/// From now on, files that were read through this module are not overwritten by this process.
+pub fn protect_inputs() {
+    INPUTS.get_or_init(Mutex::default);
+}
+
+/// Notes that a file was read, if inputs are protected.
+pub(super) fn note_input(path: &Path) {
+    if let Some((inputs, path)) = INPUTS.get().zip(fs::canonicalize(path).ok()) {
+        inputs.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
+    }
+}
+
+fn is_input(place: &Path) -> bool {
+    INPUTS.get().is_some_and(|inputs| inputs.lock().unwrap_or_else(PoisonError::into_inner).contains(place))
 }
 
 /// Writes one file through `fill`, and creates missing folders of its path. On any error the file at `path` is
@@ -51,7 +75,10 @@ impl Written {
                 fill(&mut bytes).map_err(fail)?;
                 return Ok(Self::Device(bytes));
             }
-            Ok(_) => fs::canonicalize(path).map_err(fail)?,
+            Ok(_) => match fs::canonicalize(path).map_err(fail)? {
+                place if is_input(&place) => return Err(WriteError::Input { path: path.into() }),
+                place => place,
+            },
             // There is no file yet, or a dangling link, which a file replaces.
             Err(_) => path.into(),
         };

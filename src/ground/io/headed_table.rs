@@ -5,6 +5,15 @@ use std::path::Path;
 use super::quoted;
 use crate::error::{FilePlace, InputError, input_error};
 
+/// Comma-separated values of any number per line, without white space around them.
+pub(super) fn rows(bytes: &[u8]) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes)
+}
+
+pub(super) fn syntax(reason: csv::Error, name: &Path) -> InputError {
+    input_error!("crossbar::table::syntax" => "the table cannot be read: {reason}").at(name)
+}
+
 /// Calls `each` with the line and the fields of every row; `per` names the subject of a row in messages.
 pub(super) fn for_each_row(
     bytes: &[u8],
@@ -13,10 +22,7 @@ pub(super) fn for_each_row(
     per: &str,
     each: &mut dyn FnMut(usize, &csv::ByteRecord) -> Result<(), InputError>,
 ) -> Result<(), InputError> {
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let syntax =
-        |reason: csv::Error| input_error!("crossbar::table::syntax" => "the table cannot be read: {reason}").at(name);
+    let (mut reader, syntax) = (rows(bytes), |reason| syntax(reason, name));
     let mut record = csv::ByteRecord::new();
     let has_header = reader.read_byte_record(&mut record).map_err(syntax)?;
     if !(has_header && record.iter().eq(header.iter().map(|column| column.as_bytes()))) {

@@ -26,7 +26,7 @@ pub mod scenes;
 pub mod stl;
 
 pub use crate::error::FilePlace;
-pub use atomic::{WriteError, require_writable, write_file, write_files};
+pub use atomic::{WriteError, protect_inputs, require_writable, write_file, write_files};
 pub use cube_map::{load_cube_table, parse_cube_table, write_cube_table};
 pub use error::read_file;
 pub use gltf::parse_gltf;
@@ -35,8 +35,8 @@ pub use matrix_market::{CoordinateMatrix, load_matrix_market, parse_matrix_marke
 pub use model::{ModelOptions, UpAxis, load_mesh, load_mesh_with, load_scene, load_scene_with};
 pub use model_note::ModelNote;
 pub use npy::{
-    NumberArray, NumbersOrCodes, load_npy_array, load_numbers, load_numbers_or_codes, parse_npy, parse_npy_array,
-    parse_numbers, write_npy, write_npy_array,
+    NumberArray, NumbersOrCodes, load_npy_array, load_numbers, load_numbers_or_codes, parse_npy_array, parse_numbers,
+    write_npy_array,
 };
 pub use npz::{NpzReader, NpzWriter};
 pub use number::{NumberError, parse_f32, parse_f64, to_f32};
@@ -71,6 +71,7 @@ fn is_device(_: &std::fs::FileType) -> bool {
 /// The contents of a file of at most `limit` bytes, or `None` if it is longer. A device with more bytes is an error.
 pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     let file = File::open(path)?;
+    atomic::note_input(path);
     let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
     let most = if is_device { limit.min(MAX_DEVICE_BYTES) } else { limit };
     let mut bytes = Vec::new();
@@ -84,10 +85,14 @@ pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     Ok((length <= limit).then_some(bytes))
 }
 
-/// Invalid input as quoted in messages: escaped, and cut to 40 characters.
+/// Invalid input as quoted in messages: [`visible`], cut to 40 characters.
 fn quoted(text: &[u8]) -> String {
-    let text = String::from_utf8_lossy(text);
-    let cut: String = text.chars().take(40).collect();
-    let more = if cut.len() < text.len() { "..." } else { "" };
-    format!("`{}{more}`", cut.escape_debug())
+    format!("`{}`", visible(&String::from_utf8_lossy(text), 40))
+}
+
+/// The first `most` characters of a text, with hidden characters escaped; quotation marks stay.
+fn visible(text: &str, most: usize) -> String {
+    let escaped = |c: char| if matches!(c, '"' | '\'') { c.to_string() } else { c.escape_debug().to_string() };
+    let more = if text.chars().nth(most).is_some() { "..." } else { "" };
+    text.chars().take(most).map(escaped).collect::<String>() + more
 }

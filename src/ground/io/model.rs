@@ -59,16 +59,20 @@ pub struct ModelOptions {
     pub strict: bool,
 }
 
+impl ModelOptions {
+    /// No repairs, and the format's own axis.
+    pub const STRICT: Self = Self { up: None, strict: true };
+}
+
 /// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs.
 pub fn load_mesh(path: &Path) -> Result<Mesh, InputError> {
-    let bytes = load_model(path)?;
-    mesh_of(&bytes, ModelFormat::of(&bytes, path), path, true).map(|(mesh, _)| mesh)
+    load_mesh_with(path, ModelOptions::STRICT).map(|(mesh, _)| mesh)
 }
 
 /// Reads a scene without repairs: from an OBJ file and its material libraries, from a glTF file and its buffers, or
 /// from a PLY or STL file, which gets one grey material. It has no views and no point lights.
 pub fn load_scene(path: &Path) -> Result<Scene, InputError> {
-    load_scene_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
+    load_scene_with(path, ModelOptions::STRICT).map(|(scene, _)| scene)
 }
 
 /// Like [`load_mesh`], with options, and notes on the model. Unless `strict`, triangles whose winding is opposite to

@@ -4,6 +4,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use exr::prelude::f16;
 use serde::Deserialize;
 use toml::de::ValueDeserializer;
 
@@ -25,10 +26,17 @@ fn size_error(name: &Path, expected: &str, found: String) -> InputError {
     input_error!("crossbar::npy::size" => "expected {expected} of numbers, found {found}").at(name)
 }
 
-fn type_error(name: &Path, found: &str) -> InputError {
+pub(super) fn float_type_error(name: &Path, found: &str) -> InputError {
     input_error!("crossbar::npy::dtype" =>
         "expected numbers of type <f4, <f8, >f4 or >f8, found {}", quoted(found.as_bytes());
         help "convert the array: a.astype('<f4')")
+    .at(name)
+}
+
+fn code_type_error(name: &Path, found: &str) -> InputError {
+    input_error!("crossbar::npy::dtype" =>
+        "expected numbers of type <f2, <f4 or <f8, or patterns of type u1, <u2 or <u4, found {}", quoted(found.as_bytes());
+        help "convert the array: a.astype('<f4'), or a.view('u1') for patterns")
     .at(name)
 }
 
@@ -45,11 +53,6 @@ impl<T> From<NumberArray<T>> for NumberTable<T> {
     fn from(NumberArray { shape, values }: NumberArray<T>) -> Self {
         Self { columns: shape.iter().skip(1).product(), values }
     }
-}
-
-/// Reads an array from bytes as a table; `name` is the file's name in messages.
-pub fn parse_npy<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
-    parse_npy_array(bytes, name).map(NumberTable::from)
 }
 
 /// An array of any type of 1 to 8 bytes, in C order, with its numbers as raw bytes.
@@ -75,8 +78,12 @@ impl<'a> NpyView<'a> {
     }
 }
 
-/// Reads the header of an array.
-pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, InputError> {
+/// Reads the header of an array; `wrong_type` is the error of a type that no reader knows.
+pub(super) fn view<'a>(
+    bytes: &'a [u8],
+    name: &Path,
+    wrong_type: fn(&Path, &str) -> InputError,
+) -> Result<NpyView<'a>, InputError> {
     let (text, data) = split(bytes, name)?;
     let header = Header::parse(text).ok_or_else(|| {
         let expected = "a Python dictionary of `descr`, `fortran_order` and `shape`";
@@ -90,7 +97,7 @@ pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, Inpu
     }
     let size = match descr.as_bytes() {
         [b'<' | b'>' | b'|', b'f' | b'i' | b'u', size @ (b'1' | b'2' | b'4' | b'8')] => usize::from(size - b'0'),
-        _ => return Err(type_error(name, &descr)),
+        _ => return Err(wrong_type(name, &descr)),
     };
     let count = shape.iter().try_fold(1_usize, |product, &axis| product.checked_mul(axis));
     let Some(count) = count.filter(|_| !shape.is_empty()) else {
@@ -104,7 +111,7 @@ pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, Inpu
 
 /// Reads an array from bytes; `name` is the file's name in messages.
 pub fn parse_npy_array<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberArray<T>, InputError> {
-    let NpyView { descr, shape, data, .. } = view(bytes, name)?;
+    let NpyView { descr, shape, data, .. } = view(bytes, name, float_type_error)?;
     if data.is_empty() {
         return Err(size_error(name, "a shape", format!("{shape:?}")));
     }
@@ -125,7 +132,7 @@ pub fn parse_npy_array<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<Numb
             });
             narrowed.collect::<Result<_, _>>()?
         }
-        _ => return Err(type_error(name, &descr)),
+        _ => return Err(float_type_error(name, &descr)),
     };
     Ok(NumberArray { shape, values })
 }
@@ -175,7 +182,10 @@ impl Header {
 
 /// The numbers of a NumPy array or of comma-separated values; `name` is the file's name in messages.
 pub fn parse_numbers<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
-    if bytes.starts_with(MAGIC) { parse_npy(bytes, name) } else { parse_number_table(bytes, name) }
+    match bytes.starts_with(MAGIC) {
+        true => parse_npy_array(bytes, name).map(NumberTable::from),
+        false => parse_number_table(bytes, name),
+    }
 }
 
 /// [`parse_numbers`] from a file of at most `limit` bytes; `what` is the kind of file in messages.
@@ -202,41 +212,19 @@ pub enum NumbersOrCodes {
 /// the kind of file in messages.
 pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Result<NumbersOrCodes, InputError> {
     let bytes = read_file(path, what, limit)?;
-    let view = view(&bytes, path)?;
+    let view = view(&bytes, path, code_type_error)?;
     if view.data.is_empty() {
         return Err(size_error(path, "an array", format!("none in the shape {:?}", view.shape)));
     }
     let elements = view.elements();
+    let half = |bits: u64| f16::from_bits(bits as u16).to_f64();
     let NpyView { descr, shape, .. } = view;
     Ok(match descr.as_str() {
         "|u1" | "<u2" | "<u4" => NumbersOrCodes::Codes(NumberArray { shape, values: elements.collect() }),
         "<f2" => NumbersOrCodes::Numbers(NumberArray { shape, values: elements.map(half).collect() }),
         "<f4" | ">f4" | "<f8" | ">f8" => NumbersOrCodes::Numbers(parse_npy_array(&bytes, path)?),
-        _ => {
-            return Err(input_error!("crossbar::npy::dtype" =>
-                "expected numbers of type <f2, <f4 or <f8, or patterns of type u1, <u2 or <u4, found {}",
-                quoted(descr.as_bytes()); help "convert the array: a.astype('<f4'), or a.view('u1') for patterns")
-            .at(path));
-        }
+        _ => return Err(code_type_error(path, &descr)),
     })
-}
-
-fn half(word: u64) -> f64 {
-    let (sign, field, fraction) = ((word >> 15) << 63, word >> 10 & 31, word & 1023);
-    let size = match field {
-        0 => fraction as f64 / f64::from(1 << 24),
-        31 if fraction == 0 => f64::INFINITY,
-        31 => f64::NAN,
-        _ => f64::from_bits((field + 1023 - 15) << 52 | fraction << 42),
-    };
-    f64::from_bits(size.to_bits() | sign)
-}
-
-/// Writes a table as an array of little-endian f4, in version 1.
-pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
-    let NumberTable { columns, values } = table;
-    assert!(*columns > 0 && values.len().is_multiple_of(*columns), "whole rows");
-    write_npy_array(&[values.len() / columns, *columns], values, out)
 }
 
 /// Writes numbers of any shape as an array of little-endian f4, in version 1.

@@ -58,7 +58,10 @@ impl<'a> NpzReader<'a> {
             let data = range.and_then(|range| bytes.get(range)).ok_or_else(|| refused(&"expected all its bytes"))?;
             let key = member.name().map_err(|error| refused(&error))?;
             let key = key.strip_suffix(".npy").ok_or_else(|| refused(&"expected a name that ends in .npy"))?;
-            arrays.insert(key.to_owned(), npy::view(data, &name.join(&*member.name().unwrap_or_default()))?);
+            arrays.insert(
+                key.to_owned(),
+                npy::view(data, &name.join(&*member.name().unwrap_or_default()), npy::float_type_error)?,
+            );
         }
         Ok(Self { name, arrays })
     }
@@ -73,11 +76,6 @@ impl<'a> NpzReader<'a> {
     /// True if there is an array of this name.
     pub fn has(&self, field: &str) -> bool {
         self.arrays.contains_key(field)
-    }
-
-    /// True if there is an array of this name, of floats.
-    pub fn has_floats(&self, field: &str) -> bool {
-        self.arrays.get(field).is_some_and(|array| array.descr.contains('f'))
     }
 
     /// Takes out the bytes of an array of one axis.

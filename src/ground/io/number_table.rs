@@ -6,6 +6,7 @@
 
 use std::path::Path;
 
+use super::headed_table::{rows, syntax};
 use super::lines::{double, single};
 use super::{NumberError, quoted, to_f32};
 use crate::error::{FilePlace, InputError, input_error};
@@ -62,13 +63,10 @@ impl TableNumber for f64 {
 
 /// Reads a comma-separated table from bytes; `name` is the file's name in messages.
 pub fn parse_number_table<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let broken =
-        |reason: csv::Error| input_error!("crossbar::table::syntax" => "the table cannot be read: {reason}").at(name);
+    let mut reader = rows(bytes);
     let (mut columns, mut values, mut record) = (0, Vec::new(), csv::ByteRecord::new());
     let mut is_first = true;
-    while reader.read_byte_record(&mut record).map_err(broken)? {
+    while reader.read_byte_record(&mut record).map_err(|reason| syntax(reason, name))? {
         let header = record.iter().all(|field| matches!(T::parse(field), Err(NumberError::NoNumber)));
         if std::mem::take(&mut is_first) && header {
             continue;

@@ -1,13 +1,9 @@
 //! Wavefront OBJ.
 //!
-//! The reader uses `v`, `vt`, `vn` and `f`. It ignores groups, objects, materials, colors, lines and points, so the
-//! whole file is one mesh. A face of n corners becomes n - 2 triangles ([`crate::geom::polygon`]). Triangle ids follow
-//! the order of the file, from 0. Vertices are numbered by first use; unused vertices are dropped. Degenerate triangles
-//! are kept, because they count in the order of ids; no ray hits them. A word that begins with `#` begins a comment.
-//!
-//! Texture coordinates and normals have their own indices in the file. If all corners have them, each combination of
-//! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise texture
-//! coordinates and normals are dropped.
+//! The reader uses `v`, `vt`, `vn` and `f`, so the whole file is one mesh. A face of n corners becomes n - 2 triangles
+//! ([`crate::geom::polygon`]). Triangle ids follow the order of the file, from 0; degenerate triangles count. Vertices
+//! are numbered by first use; unused vertices are dropped. If all corners have texture coordinates and normals, each
+//! combination with a position becomes a vertex; otherwise texture coordinates and normals are dropped.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -247,14 +243,10 @@ impl ObjReader {
         fn of<T: Copy>(list: &[T], vertices: &[ObjCorner], target: usize) -> Vec<T> {
             vertices.iter().map(|vertex| list[vertex[target] as usize - 1]).collect()
         }
-        let mut mesh = Mesh::new(of(&self.positions, &vertices, 0), triangles);
-        if normals {
-            mesh = mesh.and_then(|mesh| mesh.with_normals(of(&self.normals, &vertices, 2)));
-        }
-        if texcoords {
-            mesh = mesh.and_then(|mesh| mesh.with_texcoords(of(&self.texcoords, &vertices, 1)));
-        }
-        mesh.map_err(|reason| mesh_error(&self.name, reason))
+        let normals = normals.then(|| of(&self.normals, &vertices, 2));
+        let texcoords = texcoords.then(|| of(&self.texcoords, &vertices, 1));
+        let mesh = Mesh::new(of(&self.positions, &vertices, 0), triangles);
+        mesh.and_then(|mesh| mesh.with_attributes(normals, texcoords)).map_err(|reason| mesh_error(&self.name, reason))
     }
 
     pub(super) fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> InputError {

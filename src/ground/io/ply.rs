@@ -1,11 +1,8 @@
 //! PLY, the format of scanned models: ASCII and both binary encodings, read with ply-rs-bw.
 //!
-//! The reader uses the elements `vertex` (`x y z`; `nx ny nz`; `s t`, `u v` or `texture_u texture_v`) and `face`
-//! (`vertex_indices` or `vertex_index`), and ignores all others. A face of n corners becomes n - 2 triangles
-//! ([`crate::geom::polygon`]). Vertices keep the file's order, and degenerate triangles are kept, as in OBJ files.
-//!
-//! The file is read element by element, so that an error names the line or the element, and a count in the header alone
-//! allocates no memory.
+//! docs/scenes.md lists the elements that are read; others are ignored. Vertices keep the file's order, and degenerate
+//! triangles are kept, as in OBJ files. The file is read element by element, so that an error names the line or the
+//! element, and a count in the header alone allocates no memory.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -18,13 +15,15 @@ use super::faces::Faces;
 use super::lines::{not_utf_16, unmarked};
 use super::model_note::ModelNote;
 use super::obj::within_limit;
-use super::quoted;
+use super::{quoted, visible};
 use crate::error::{FilePlace, InputError};
 use crate::geom::Mesh;
 use crate::io::error::{element_error, mesh_error, syntax_error};
 
 const NUMBERS: [&[&str]; 8] =
     [&["x"], &["y"], &["z"], &["nx"], &["ny"], &["nz"], &["s", "u", "texture_u"], &["t", "v", "texture_v"]];
+/// Largest number of characters of a name in a message.
+const LONGEST: usize = 80;
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// Reads a mesh from bytes; `name` is the file's name in messages.
@@ -157,7 +156,7 @@ impl ElementPlace<'_> {
     fn error(self, expected: impl Display, found: impl Display) -> InputError {
         match self.line {
             Some((line, found)) => syntax_error(FilePlace::line(self.name, line), expected, found),
-            None => element_error(self.name, &visible(self.element), self.index, expected, found),
+            None => element_error(self.name, &visible(self.element, LONGEST), self.index, expected, found),
         }
     }
 }
@@ -229,11 +228,7 @@ fn with_digits(line: &str) -> Cow<'_, str> {
 fn expected(element: &ElementDef) -> String {
     let names: Vec<&str> = element.properties.keys().map(String::as_str).take(12).collect();
     let more = if element.properties.len() > names.len() { " ..." } else { "" };
-    format!("a `{}` of `{}{more}`", visible(&element.name), visible(&names.join(" ")))
-}
-
-fn visible(name: &str) -> String {
-    name.chars().take(80).collect::<String>().escape_debug().to_string()
+    format!("a `{}` of `{}{more}`", visible(&element.name, LONGEST), visible(&names.join(" "), LONGEST))
 }
 
 #[derive(Default)]
@@ -281,13 +276,9 @@ impl MeshReader {
         if triangles.is_empty() {
             return Err(missing(name, "at least one face"));
         }
-        let of = |mesh: Mesh| {
-            let three = || self.vertices.iter().map(|v| [v[3], v[4], v[5]]).collect();
-            let mesh = if normals { mesh.with_normals(three())? } else { mesh };
-            let pairs = || self.vertices.iter().map(|v| [v[6], v[7]]).collect();
-            if texcoords { mesh.with_texcoords(pairs()) } else { Ok(mesh) }
-        };
-        let positions = self.vertices.iter().map(positions_of).collect();
-        Mesh::new(positions, triangles).and_then(of).map_err(|reason| mesh_error(name, reason))
+        let normals = normals.then(|| self.vertices.iter().map(|v| [v[3], v[4], v[5]]).collect());
+        let texcoords = texcoords.then(|| self.vertices.iter().map(|v| [v[6], v[7]]).collect());
+        let mesh = Mesh::new(self.vertices.iter().map(positions_of).collect(), triangles);
+        mesh.and_then(|mesh| mesh.with_attributes(normals, texcoords)).map_err(|reason| mesh_error(name, reason))
     }
 }

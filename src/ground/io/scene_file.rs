@@ -1,22 +1,5 @@
-//! Scene files: a mesh with its materials, views and point lights.
-//!
-//! ```toml
-//! mesh = "room.obj"
-//!
-//! [[view]]
-//! name = "front"
-//! eye = [0.0, -3.0, 1.5]
-//! target = [0.0, 0.0, 1.0]
-//! up = [0.0, 0.0, 1.0]
-//! tan_half_height = 0.5
-//!
-//! [[point_light]]
-//! position = [0.0, 0.0, 2.5]
-//! intensity = [10.0, 10.0, 9.0]
-//! ```
-//!
-//! The mesh is an OBJ, PLY, STL or glTF file beside the scene file, read by [`super::load_scene`]. A model alone is a
-//! scene without views and point lights.
+//! Scene files: a mesh with its materials, views and point lights, as docs/scenes.md shows. The mesh is an OBJ, PLY, STL
+//! or glTF file beside the scene file; a model alone is a scene without views and point lights.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -53,7 +36,7 @@ fn is_model(path: &Path) -> bool {
 
 /// Reads a scene: a model if the file name has a model's extension, else a scene file.
 pub fn load(path: &Path) -> Result<Scene, InputError> {
-    load_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
+    load_with(path, ModelOptions::STRICT).map(|(scene, _)| scene)
 }
 
 /// Like [`load`], with options for the model and notes on it. Views and point lights are not changed.

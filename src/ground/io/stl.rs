@@ -1,8 +1,7 @@
 //! STL, binary and ASCII.
 //!
-//! Triangles are in the order of the file; corners with bit-identical positions become one vertex. The file's normals,
-//! which are redundant, are ignored, as are names and colors. ASCII files may contain several solids, in upper or lower
-//! case. Binary data are recognised by their length, because some begin with the word `solid` of the ASCII format.
+//! Triangles are in the order of the file; corners with bit-identical positions become one vertex. Binary data are
+//! recognised by their length, because some begin with the word `solid` of the ASCII format.
 
 use std::path::Path;
 

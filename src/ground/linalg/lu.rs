@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use super::Matrix;
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure};
 
 const PANEL: usize = 64;
 /// Number of columns that are updated at once, so that a panel's rows stay in a core's cache.
@@ -22,10 +22,6 @@ pub struct Lu {
     values: Vec<f64>,
     /// For each row, its row index in the matrix.
     order: Vec<usize>,
-}
-
-pub(super) fn singular(column: usize) -> InputError {
-    input_error!("expected an invertible matrix, found no pivot in column {column} (counted from 0)")
 }
 
 impl Lu {
@@ -53,9 +49,10 @@ impl Lu {
             let (above, below) = self.values.split_at_mut((column + 1) * size);
             let pivot_row = &above[column * size..];
             let pivot = pivot_row[column];
-            if pivot == 0.0 || !pivot.is_finite() {
-                return Err(singular(column));
-            }
+            ensure!(
+                pivot != 0.0 && pivot.is_finite(),
+                "expected an invertible matrix, found no pivot in column {column} (counted from 0)"
+            );
             let inverse = 1.0 / pivot;
             for row in below.chunks_exact_mut(size) {
                 row[column] *= inverse;

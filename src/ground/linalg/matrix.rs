@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::dot;
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure, input_error};
 
 /// Maximum number of rows of a square matrix.
 pub const MAX_SQUARE: usize = 16_384;
@@ -22,16 +22,11 @@ pub struct Matrix {
     values: Vec<f64>,
 }
 
-pub(super) fn count_error(rows: usize, columns: usize, values: usize) -> InputError {
-    input_error!("expected {rows} x {columns} values, found {values}")
-}
-
 impl Matrix {
     /// Creates a matrix from rows, columns and values.
     pub fn new([rows, columns]: [usize; 2], values: Vec<f64>) -> Result<Self, InputError> {
-        if elements([rows, columns])? != values.len() {
-            return Err(count_error(rows, columns, values.len()));
-        }
+        let found = values.len();
+        ensure!(elements([rows, columns])? == found, "expected {rows} x {columns} values, found {found}");
         Ok(Self { rows, columns, values })
     }
 

@@ -51,18 +51,15 @@ impl Camera {
         height: u32,
     ) -> Result<Self, InputError> {
         // This is checked first, because callers derive the eye from the tangent.
-        if !(tan_half_height > 0.0 && tan_half_height <= MAX_TANGENT) {
-            return Err(input_error!(
-                "expected a tangent of half the vertical field of view above 0 and up to 1000000, found \
-         {tan_half_height}"
-            ));
-        }
+        ensure!(
+            tan_half_height > 0.0 && tan_half_height <= MAX_TANGENT,
+            "expected a tangent of half the vertical field of view above 0 and up to 1000000, found {tan_half_height}"
+        );
         for (what, found) in [("eye", eye), ("target", target), ("up", up)] {
             ensure!(found.iter().all(|value| value.is_finite()), "expected finite figures for {what}, found {found:?}");
         }
-        if width == 0 || height == 0 || u64::from(width) * u64::from(height) > 1 << 30 {
-            return Err(input_error!("expected a picture of 1 to 2^30 pixels, found {width}x{height}"));
-        }
+        let pixels = u64::from(width) * u64::from(height);
+        ensure!((1..=1 << 30).contains(&pixels), "expected a picture of 1 to 2^30 pixels, found {width}x{height}");
         let [from, to, up] = [eye, target, up].map(wide);
         let forward = unit(to - from).ok_or_else(flat_error)?;
         let sideways = forward.cross(unit(up).ok_or_else(flat_error)?);

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::{Camera, Color, Material};
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::{area_vector, narrow, unit, wide};
 
@@ -46,10 +46,6 @@ impl View {
     }
 }
 
-fn count_error(what: &'static str, triangles: usize, found: usize) -> InputError {
-    input_error!("expected {triangles} {what}, one per triangle, found {found}")
-}
-
 /// Triangles with materials, normals, lights and views.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
@@ -74,11 +70,9 @@ impl Scene {
         normals: Vec<[[f32; 3]; 3]>,
     ) -> Result<Self, InputError> {
         let triangles = mesh.len();
-        if material_of.len() != triangles {
-            return Err(count_error("materials", triangles, material_of.len()));
-        }
-        if !normals.is_empty() && normals.len() != triangles {
-            return Err(count_error("normals", triangles, normals.len()));
+        let normal_count = if normals.is_empty() { triangles } else { normals.len() };
+        for (what, found) in [("materials", material_of.len()), ("normals", normal_count)] {
+            ensure!(found == triangles, "expected {triangles} {what}, one per triangle, found {found}");
         }
         if let Some(triangle) = material_of.iter().position(|&m| m as usize >= materials.len()) {
             let material = material_of[triangle];

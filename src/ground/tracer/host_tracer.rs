@@ -217,21 +217,6 @@ impl HostTracer {
 
     /// Returns the first hits of any number of rays, traced on all worker threads; the result does not depend on the
     /// number of threads.
-    ///
-    /// ```
-    /// # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*}; }
-    /// use crossbar::geom::{Ray, Sides, teapot::teapot};
-    /// use crossbar::tracer::HostTracer;
-    ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let tracer = HostTracer::new(&teapot(4)?, Sides::Front);
-    /// let rays = [Ray::new([0.0, 0.0, 9.0], [0.0, 0.0, -1.0])?, Ray::new([9.0; 3], [1.0, 0.0, 0.0])?];
-    /// let (hits, counts) = tracer.nearest_all(&rays);
-    /// assert!(hits[0].is_some() && hits[1].is_none());
-    /// assert_eq!(counts.rays, 2);
-    /// # Ok(())
-    /// # }
-    /// ```
     pub fn nearest_all(&self, rays: &[Ray]) -> (Vec<Option<Hit>>, HostCounts) {
         all(rays, |rays, hits| self.nearest_each(rays, hits))
     }

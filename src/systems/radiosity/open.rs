@@ -19,7 +19,8 @@ use rayon::prelude::*;
 
 use super::patch::Patch;
 use crate::geom::exact::{Sides, Tracer};
-use crate::geom::vector::{clipped, narrow, unit, wide};
+use crate::geom::polygon::clipped;
+use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::offset::scene_clearance;
 

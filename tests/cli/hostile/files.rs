@@ -4,7 +4,8 @@ use std::ffi::OsString;
 
 use rayon::prelude::*;
 
-use super::{Files, assert_refused};
+use super::{Files, assert_refused, said};
+use crate::answers::folder_with;
 use crate::environment::is_full;
 
 /// Tries every kind of unsuitable file for every option that takes an input file.
@@ -98,4 +99,24 @@ fn hostile_places_for_results() {
     runs.par_iter().for_each(|arguments| {
         assert_refused(arguments, &files);
     });
+}
+
+/// No command replaces a file that it reads, whether it writes a file or a folder.
+#[test]
+fn inputs_are_not_overwritten() {
+    let (mesh, rays) = (&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"[..], &b"ox,oy,oz,dx,dy,dz\n0,0,1,0,0,-1\n"[..]);
+    let picture = include_bytes!("../../../docs/examples/exact.png");
+    let files = [("m.obj", mesh), ("r.csv", rays), ("first.png", picture), ("b.png", picture)];
+    for command in [
+        "intersect --mesh m.obj --rays r.csv --out m.obj",
+        "intersect --mesh m.obj --rays r.csv --out ./r.csv",
+        "diff b.png first.png --out .",
+    ] {
+        let (folder, arguments) = (folder_with(&files), command.split(' ').map(OsString::from).collect::<Vec<_>>());
+        let found = said(folder.path(), &arguments);
+        assert_eq!((found.code, found.stderr.contains("reads")), (Some(2), true), "{command}");
+        for (name, bytes) in files {
+            assert_eq!(std::fs::read(folder.path().join(name)).expect("a file"), bytes, "{command}: {name}");
+        }
+    }
 }

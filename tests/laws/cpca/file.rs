@@ -5,7 +5,7 @@ use std::path::Path;
 use crossbar::clustering::{CpcaMethod, CpcaOptions, Signal, compress};
 use crossbar::geom::Mesh;
 use crossbar::io::npz::MAGIC;
-use crossbar::io::{NumberTable, write_npy};
+use crossbar::io::write_npy_array;
 use crossbar::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt, parse_prt, save_prt, write_prt};
 use crossbar::transfer::synthetic::torus_signal;
 use crossbar::transfer::{Tangents, Vertices, load_signal};
@@ -226,7 +226,7 @@ fn signals_are_read_from_tables_and_arrays() {
     let signal = Signal::new(2, vec![1.0, 2.0, 3.0, 4.0]).expect("a signal");
     assert_eq!(read(b"x,y\n1,2\n3,4\n"), Some(signal.clone()));
     let mut npy = Vec::new();
-    write_npy(&NumberTable { columns: 2, values: signal.values().to_vec() }, &mut npy).expect("written");
+    write_npy_array(&[2, 2], signal.values(), &mut npy).expect("written");
     assert_eq!(read(&npy), Some(signal));
     let end = npy.len() - 4;
     npy[end..].copy_from_slice(&f32::NAN.to_le_bytes());

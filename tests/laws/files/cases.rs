@@ -87,11 +87,6 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn arbitrary_bytes_do_not_panic(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
-        read(&bytes);
-    }
-
-    #[test]
     fn mutated_cases_do_not_panic(text in mutated()) {
         if let Some(setup) = read(&text) {
             draw(&setup);

@@ -11,7 +11,7 @@ use crate::support::file;
 
 const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
 
-const HEADER: &str = "comment a quadrilateral and a triangle\nobj_info none\nelement vertex 5\nproperty float x\n\
+const HEADER: &str = "comment caf\u{e9}\nobj_info none\nelement vertex 5\nproperty float x\n\
                       property double y\nproperty short z\nproperty float nx\nproperty float ny\nproperty float nz\n\
                       property uchar red\nproperty float u\nproperty float v\nelement edge 1\nproperty int vertex1\n\
                       property list ushort double weights\nelement face 2\nproperty uchar flags\n\
@@ -79,6 +79,11 @@ fn every_encoding_gives_the_same_mesh() {
         assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [4, 2, 1]], "{encoding}");
         assert_eq!(mesh.normals().map(|normals| normals[4]), Some([0.0, 0.6, 0.8]), "{encoding}");
         assert_eq!(mesh.texcoords().map(|uv| uv[1]), Some([1.5, 0.5]), "{encoding}");
+        if encoding == "ascii" {
+            let by_cr: Vec<u8> =
+                encoded(encoding).iter().map(|&byte| if byte == b'\n' { b'\r' } else { byte }).collect();
+            assert_eq!(parse(&by_cr).expect("lines that end in CR"), mesh);
+        }
         // Without `--strict`, a file may have trailing data.
         let longer = [encoded(encoding), b"3 0 1 2".to_vec()].concat();
         let error = parse(&longer).expect_err("longer").to_string();

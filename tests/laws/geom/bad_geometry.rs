@@ -1,7 +1,7 @@
 //! Meshes and rays at the limits of f32 cause no panic, hang or wrong number; zeros of both signs mean the same
 //! direction.
 
-use crate::support::{profile, soup};
+use crate::support::{bits, profile, soup};
 use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
 use crossbar::oracle::{Oracle, Tolerance, hard_rays};
@@ -24,11 +24,6 @@ fn paths(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<(&'static str, Vec<Opti
         found.push((name, card.intersect_list(mesh, rays, sides).expect("the card works")));
     }
     found
-}
-
-/// Triangles and bits of t.
-fn bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, u32)>> {
-    hits.iter().map(|hit| hit.map(|hit| (hit.triangle, hit.t.to_bits()))).collect()
 }
 
 fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {

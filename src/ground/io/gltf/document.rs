@@ -6,10 +6,12 @@ use gltf::json::validation::{Error, Validate as _};
 use gltf::{Document, json};
 
 use super::super::lines::unmarked;
-use super::super::quoted;
+use super::super::{quoted, visible};
 use crate::error::{FilePlace, InputError};
 use crate::io::error::{part_error, syntax_error};
 
+/// Largest number of characters of a part or an error in a message.
+const MOST: usize = 160;
 const MAGIC: &[u8] = b"glTF";
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
@@ -27,10 +29,11 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option
         syntax_error(
             FilePlace::line(name, error.line().max(1)),
             "a glTF 2.0 document",
-            format!("something else: {}", shortened(&error.to_string())),
+            format!("something else: {}", visible(&error.to_string(), MOST)),
         )
     })?;
-    let wrong = |part: &str, expected: &'static str, found: String| part_error(name, shortened(part), expected, found);
+    let wrong =
+        |part: &str, expected: &'static str, found: String| part_error(name, visible(part, MOST), expected, found);
     if !root.asset.version.starts_with("2.") {
         return Err(wrong("asset.version", "2.0", quoted(root.asset.version.as_bytes())));
     }
@@ -109,11 +112,4 @@ fn chunks<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], Option<&'a [u8]
         [Some(text), chunk] => Ok((text, chunk)),
         [None, _] => Err(wrong("the GLB file", "a chunk of JSON", "none".to_owned())),
     }
-}
-
-fn shortened(text: &str) -> String {
-    const MOST: usize = 160;
-    let more = if text.chars().count() > MOST { "..." } else { "" };
-    let cut: String = text.chars().take(MOST).collect();
-    format!("{}{more}", cut.escape_debug())
 }

@@ -99,14 +99,9 @@ impl Geometry {
 
     /// The mesh, with normals or texture coordinates if all its primitives have them.
     pub(super) fn mesh(self) -> Result<Mesh, InputError> {
-        let mut mesh = Mesh::new(self.positions, self.triangles)?;
-        if !self.some_without[0] {
-            mesh = mesh.with_normals(self.normals)?;
-        }
-        if !self.some_without[1] {
-            mesh = mesh.with_texcoords(self.texcoords)?;
-        }
-        Ok(mesh)
+        let [normals, texcoords] = self.some_without.map(|without| !without);
+        Mesh::new(self.positions, self.triangles)?
+            .with_attributes(normals.then_some(self.normals), texcoords.then_some(self.texcoords))
     }
 }
 

@@ -1,15 +1,9 @@
 //! glTF 2.0, as JSON (`.gltf`) and as one binary file (`.glb`).
 //!
-//! The reader supports the meshes of the default scene, each placed by its nodes: triangles, strips and fans, with or
-//! without indices; positions, normals and the first texture coordinates; base color and emission of materials. It
-//! ignores textures, vertex colors, points, lines, cameras, lights, animations, and application-specific attributes and
-//! data. It rejects sparse accessors; it also rejects skinned meshes and morph targets, because their triangles differ
-//! from the stored ones.
-//!
-//! glTF has y up, scenes have z up: (x, y, z) becomes (x, -z, y). Positions are transformed in double precision and
-//! rounded once.
-//!
-//! The crate gltf reads the JSON and checks its references; this module reads the buffers within bounds.
+//! docs/scenes.md lists what is read, ignored and rejected. Meshes with a skin or morph targets are rejected because
+//! their triangles differ from the stored ones. glTF has y up, scenes have z up: (x, y, z) becomes (x, -z, y). Positions
+//! are transformed in double precision and rounded once. The crate gltf reads the JSON and checks its references; this
+//! module reads the buffers within bounds.
 
 mod accessor;
 mod buffers;

@@ -1,14 +1,8 @@
 //! Wavefront OBJ with materials: a whole scene.
 //!
 //! Geometry is read as by [`super::obj`]; in addition, `vn` and the normals of corners, `mtllib` and `usemtl` are used.
-//! A triangle with a normal at each corner is smooth, others are flat. A face without a material is grey. A face whose
-//! material is in no library is grey with a note, or rejected if `strict`. Libraries are in the model's folder
-//! ([`mtl`]).
-//!
-//! Names of materials and libraries extend to the end of their line, so they may contain blanks and `#`. If no such
-//! library can be read, a `mtllib` line is read as a list of names, each of which ends in `.mtl`.
-//!
-//! [`write`] creates text that reads back with the same bits.
+//! Names of materials and libraries extend to the end of their line. If no library of that name can be read, a `mtllib`
+//! line is read as a list of names, each of which ends in `.mtl`.
 
 pub mod mtl;
 mod reader;

@@ -1,19 +1,8 @@
 //! Material libraries (MTL).
 //!
-//! The reader uses `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`, and ignores all other statements (ambient colours, textures).
-//! The name of a material, in UTF-8 or Latin-1, extends to the end of its line. In other lines a word that begins with
-//! `#` begins a comment.
-//!
-//! | `illum` | surface |
-//! |---|---|
-//! | 0, 1, 2, 10, none | diffuse `Kd`; glossy with `Ks` and `Ns` where `Ks` is not zero |
-//! | 3, 5, 8 | mirror `Ks` (default 1) |
-//! | 4, 6, 7, 9 | glass of index `Ni` (default 1.5) with transmittance `Tf` (else 1 - `d`, else 1) |
-//!
-//! `Ke` is emission. A reflectance lies in [0, 1], and so does `Kd` + `Ks` of a glossy surface. Transparency (`d` below
-//! 1, `Tr` above 0) needs glass, and gloss needs an `Ns` above 0. Files of modelling tools often violate these rules.
-//! When a scene is read with notes, `Kd` and `Ks` are scaled together and materials other than glass become opaque,
-//! each with a note.
+//! docs/scenes.md lists the statements that are read and the rules that reflectances obey; other statements (ambient
+//! colors, textures) are ignored. Names of materials, in UTF-8 or Latin-1, extend to the end of their line. When a scene
+//! is read with notes, a material that breaks a rule is changed, with a note.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -19,6 +19,6 @@ pub(super) fn with_attributes(
     normals: Vec<[f32; 3]>,
     texture: Vec<[f32; 2]>,
 ) -> Mesh {
-    let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
-    mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite numbers, as many as vertices")
+    let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_attributes(Some(normals), Some(texture)));
+    mesh.expect("finite numbers, as many as vertices")
 }

@@ -3,14 +3,8 @@
 //! Fronts face outwards (inwards in a room). Coordinates are computed in f64 by additions, products, square roots and
 //! [`crate::elementary`], and rounded to f32 once.
 //!
-//! - [`rooms`]: closed rooms with few walls;
-//! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
-//! - [`transfer_models`]: meshes with normals, texture coordinates and the vertex counts of other papers' models;
-//! - `bunny`, `bodies`: the surfaces of these models; `isosurface` makes bodies of rounded pieces, `resample` gives a
-//!   closed surface any number of vertices;
-//! - [`flat_models`]: models of flat parts with several materials;
-//! - [`meshes`]: all of these by name;
-//! - [`ground`]: a square below a model that receives its shadow.
+//! [`meshes`] lists the models by name; `isosurface` makes bodies of rounded pieces, and `resample` gives a closed surface
+//! any number of vertices.
 
 mod bodies;
 mod bunny;

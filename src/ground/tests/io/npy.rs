@@ -1,5 +1,7 @@
 use crossbar_ground::io::npy::MAGIC;
-use crossbar_ground::io::{NumberArray, NumberTable, parse_npy, parse_npy_array, write_npy, write_npy_array};
+use crossbar_ground::io::{
+    NumberArray, NumberTable, load_numbers_or_codes, parse_npy_array, parse_numbers, write_npy_array,
+};
 use std::path::Path;
 
 fn file(version: u8, header: &str, data: &[u8]) -> Vec<u8> {
@@ -9,7 +11,7 @@ fn file(version: u8, header: &str, data: &[u8]) -> Vec<u8> {
 }
 
 fn parse(bytes: &[u8]) -> Result<NumberTable, String> {
-    parse_npy(bytes, Path::new("a.npy")).map_err(|error| error.to_string())
+    parse_npy_array(bytes, Path::new("a.npy")).map(NumberTable::from).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -30,7 +32,7 @@ fn all_versions_and_types_are_read() {
             let expected = NumberTable { columns, values: values.to_vec() };
             let file = file(version, &header, &bytes(descr));
             assert_eq!(parse(&file), Ok(expected), "{version} {descr}");
-            let wide = parse_npy::<f64>(&file, Path::new("a.npy")).expect("a table");
+            let wide = parse_numbers::<f64>(&file, Path::new("a.npy")).expect("a table");
             assert_eq!(wide.values, values.map(f64::from), "{version} {descr}");
         }
     }
@@ -40,7 +42,7 @@ fn all_versions_and_types_are_read() {
 fn what_is_written_is_read() {
     let table = NumberTable { columns: 3, values: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0] };
     let mut bytes = Vec::new();
-    write_npy(&table, &mut bytes).expect("written");
+    write_npy_array(&[2, 3], &table.values, &mut bytes).expect("written");
     assert_eq!((bytes.len() - 24) % 64, 0);
     assert_eq!(parse(&bytes), Ok(table));
     for length in 0..bytes.len() {
@@ -80,7 +82,7 @@ fn what_is_not_read_is_named() {
     let header = with("'<f8'", "False", "(1,)");
     let range = error(&header, &1e39_f64.to_le_bytes());
     assert_eq!(range, "a.npy: number 0 (counted from 0) is too large for a 32-bit float: 1e39");
-    let wide = parse_npy::<f64>(&file(1, &header, &1e39_f64.to_le_bytes()), Path::new("a.npy")).expect("a table");
+    let wide = parse_numbers::<f64>(&file(1, &header, &1e39_f64.to_le_bytes()), Path::new("a.npy")).expect("a table");
     assert_eq!(wide.values, [1e39], "f64 holds it");
     let twice = "{'shape': (1,), 'shape': (1,)}";
     for header in [twice, "", "{", "{'descr'}", "{'x': 1}", "{'shape': (-1,)}", "[1]", "{'shape': (1,) 'descr': '<f4'}"]
@@ -88,4 +90,14 @@ fn what_is_not_read_is_named() {
         assert!(error(header, &[]).contains("expected"), "{header}");
     }
     assert!(parse(b"PK").is_err() && parse(&file(4, "", &[])).is_err());
+}
+
+/// A type that no reader knows is refused with the types that this reader reads.
+#[test]
+fn patterns_are_among_the_types_of_a_matrix() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.npy");
+    std::fs::write(&path, file(1, "{'descr': '|b1', 'fortran_order': False, 'shape': (1,)}", &[1])).expect("written");
+    let error = load_numbers_or_codes(&path, "matrix", 100).expect_err("truth values").to_string();
+    assert!(error.ends_with("or patterns of type u1, <u2 or <u4, found `|b1`"), "{error}");
 }

@@ -12,16 +12,6 @@ fn message(text: &str) -> String {
 }
 
 #[test]
-fn reads_faces_in_file_order_across_groups() {
-    let text = "mtllib none.mtl\no a\nv 0 0 0\nv 1 0 0 # a comment\r\nv 1 1 0 1\nv 0 1 0 1 0 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n\
-                g b\nusemtl x\nv 0 0 1\nf -1 -2 \\\n -3\nl 1 2\nf 2 3 5";
-    let mesh = parse(text).expect("a mesh");
-    assert_eq!(mesh.len(), 4);
-    assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [4, 3, 2], [1, 2, 4]]);
-    assert_eq!(mesh.positions()[4], [0.0, 0.0, 1.0]);
-}
-
-#[test]
 fn a_byte_order_mark_hides_no_vertex() {
     for end in ["\n", "\r\n", "\r"] {
         let text = "\u{feff}v 5 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3".replace('\n', end);

@@ -1,12 +1,12 @@
 //! The fast traversal compared with the plain one, and the triangles that a cell lists.
 
+use crossbar_base::geom::polygon::clipped;
 use crossbar_base::geom::random::CounterRng;
 use crossbar_base::geom::teapot::teapot;
 use crossbar_base::geom::vector::wide;
 use crossbar_base::geom::{Mesh, Ray, Sides};
 use crossbar_ground::tracer::HostTracer;
 use crossbar_ground::tracer::octree::{Flow, Octree, OctreeParameters};
-use glam::DVec3;
 use proptest::prelude::*;
 
 /// Rays between random points within and around the teapot, on a grid that includes the planes of cells and both zeros.
@@ -49,18 +49,6 @@ fn the_fast_traversal_visits_what_the_plain_one_visits() {
     }
 }
 
-/// The part of a polygon on one side of a plane perpendicular to an axis.
-fn clipped(polygon: &[DVec3], axis: usize, sign: f64, least: f64) -> Vec<DVec3> {
-    let height = |at: DVec3| sign * at[axis] - least;
-    let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    ends.flat_map(|(&from, &to)| {
-        let [a, b] = [from, to].map(height);
-        let cut = (a * b < 0.0).then(|| from + a / (a - b) * (to - from));
-        (a >= 0.0).then_some(from).into_iter().chain(cut)
-    })
-    .collect()
-}
-
 fn corner() -> impl Strategy<Value = [f32; 3]> {
     // Coordinates in quarter steps produce points, needles, and triangles in the planes of cells.
     prop::array::uniform3(prop_oneof![-1.0..1.0_f32, (-4..5_i8).prop_map(|step| f32::from(step) / 4.0)])
@@ -87,7 +75,7 @@ proptest! {
             let sign = [0, 1, 2].map(|axis| if octant >> axis & 1 == 1 { 1.0 } else { -1.0 });
             let touches = |margin: f64| {
                 let whole = corners.map(wide).to_vec();
-                !(0..3).fold(whole, |part, axis| clipped(&part, axis, sign[axis], -margin)).is_empty()
+                !(0..3).fold(whole, |part, axis| clipped(&part, |at| sign[axis] * at[axis] + margin)).is_empty()
             };
             let inside = Ray::new(sign.map(|side| side as f32), [1.0, 0.0, 0.0]).expect("a ray");
             let mut listed = None;

@@ -24,7 +24,7 @@ use super::shade::TeapotShader;
 use super::{ProgressFn, Study};
 use crate::geom::Hit;
 use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
-use crate::geom::classify::{Candidate, HitVerdict, classify};
+use crate::geom::classify::{HitVerdict, classify, t_error};
 use crate::geom::exact::{NearestHit, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::picture::rgb8;
@@ -62,17 +62,15 @@ impl JudgedRays {
     /// Judges each ray's hit, and counts the verdicts.
     pub(super) fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<HitVerdict>, Tally) {
         let judge = |(hit, nearest): (&Option<Hit>, &Option<NearestHit>)| {
-            let none = Candidate { triangle: None, t: 0.0 };
-            let candidate = hit.map_or(none, |h| Candidate { triangle: Some(h.triangle), t: h.t });
-            classify(mesh, nearest.as_ref(), candidate)
+            let error = hit.as_ref().zip(nearest.as_ref()).map(|(hit, nearest)| t_error(&nearest.t, hit.t));
+            (classify(mesh, nearest.as_ref(), *hit), error)
         };
         let judgements: Vec<_> = hits.par_iter().zip(&self.nearest).map(judge).collect();
         let mut tally = Tally::default();
-        for ((judgement, nearest), hit) in judgements.iter().zip(&self.nearest).zip(hits) {
-            let error = judgement.t_error.map(|e| e.absolute);
-            tally.add(judgement.verdict, nearest.is_some(), hit.is_some(), error);
+        for ((&(verdict, error), nearest), hit) in judgements.iter().zip(&self.nearest).zip(hits) {
+            tally.add(verdict, nearest.is_some(), hit.is_some(), error);
         }
-        (judgements.into_iter().map(|j| j.verdict).collect(), tally)
+        (judgements.into_iter().map(|(verdict, _)| verdict).collect(), tally)
     }
 
     /// Verdicts of the leak map.

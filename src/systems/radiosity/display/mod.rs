@@ -128,9 +128,7 @@ impl Display {
     }
 
     fn picture(&self, machine: &Machine) -> Result<Picture, DrawError> {
-        let Texels { width, height, texels } = Texels::read_back(machine, self.target.color)?;
-        let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
-        Ok(Picture::rgb(width as u32, height as u32, &pixels))
+        Ok(Texels::read_back(machine, self.target.color)?.picture())
     }
 }
 

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use crate::elementary::atan2;
-use crate::geom::vector::clipped;
+use crate::geom::polygon::clipped;
 use crate::radiosity::Patch;
 use glam::DVec3;
 

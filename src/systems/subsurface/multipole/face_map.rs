@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::moments::{Covariance, Moments, size_squared};
 use crate::atlas::FacePlace;
-use crate::geom::vector::clipped;
+use crate::geom::polygon::clipped;
 
 /// A face and its rectangle. In the rectangle's coordinates, from 0 to 1, the corners (0, 0), (1, 0), (1, 1), (0, 1)
 /// map to a, b, m, c, where m is the middle of the edge b c.

@@ -145,9 +145,7 @@ impl SubsurfaceCard {
 
     /// Draws the model from a camera: pass 3. Background pixels are 0.
     pub fn view(&mut self, view: &View) -> Result<Picture, CardError> {
-        let Texels { width, height, texels } = self.view_texels(view)?;
-        let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
-        Ok(Picture::rgb(width as u32, height as u32, &pixels))
+        Ok(self.view_texels(view)?.picture())
     }
 
     /// Like [`Self::view`], with alpha 1 where the model is visible. Fails as [`Self::view`] does.

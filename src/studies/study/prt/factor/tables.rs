@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::all_frequency::factor::{DiscSamples, Factorization, ProductErrors, ProductFactors, harmonic_errors};
 use crate::error::InputError;
-use crate::io::{NumberTable, write_npy};
+use crate::io::write_npy_array;
 use crate::report::{Cell, Chart, Findings, NamedChart, Scale, Series, Table, not_encoded};
 use crate::sphere::function_count;
 use crate::study::StudyError;
@@ -106,8 +106,7 @@ pub(super) fn keep(found: &mut Findings, all: &Factorization, factors: &ProductF
         }
         found.keep_file(format!("{name}.csv"), text.into_bytes());
         let mut bytes = Vec::new();
-        write_npy(&NumberTable { columns: terms, values: numbers }, &mut bytes)
-            .map_err(|reason| not_encoded("NPY", reason))?;
+        write_npy_array(&[map.texels(), terms], &numbers, &mut bytes).map_err(|reason| not_encoded("NPY", reason))?;
         found.keep_file(format!("{name}.npy"), bytes);
     }
     Ok(())
