@@ -121,7 +121,7 @@ fn a_model_stands_on_a_ground() {
     }
     let kept = fs::read(&ground_model).expect("a model");
     let over = crossbar(&["all-frequency", "precompute", &ground_model, "--ground", "8", "--out", &out], "");
-    assert!(over.code == Some(2) && over.stderr.contains("would overwrite the model"), "{}", over.stderr);
+    assert_eq!(over.code, Some(2), "the ground's model would overwrite the model: {}", over.stderr);
     assert_eq!(fs::read(&ground_model).expect("a model"), kept);
     let other = crossbar(&["all-frequency", "render", &out, "--model", STEP, "--ground", SIGHT, "--out", &page], "");
     assert_eq!(other.code, Some(2), "a file that names no model is no ground: {}", other.stderr);

@@ -43,14 +43,14 @@ fn as_many_vectors_as_members_leave_the_matrices_themselves() {
         for part in segments(&vertices, &maps, &reflectance) {
             let signal = part.signal.clone();
             let clustering = compressed(part, vertices.len()).clustering;
-            let most = signal.values().iter().fold(0.0_f32, |most, value| most.max(value.abs()));
+            // Eigenvalues of a cluster below 2^-44 times the largest are treated as rounding: in length a factor of
+            // 2^-22 for each of at most 42 vectors.
+            let bound = 2e-6 * signal.sum_of_squares().sqrt();
             let mut found = vec![0.0; signal.dimension()];
             for point in 0..signal.points() {
                 clustering.approximation(point, &mut found);
                 for (found, &expected) in found.iter().zip(signal.point(point)) {
-                    // Eigenvalues of a cluster below 2^-44 times the largest are treated as rounding: in length a
-                    // factor of 2^-22.
-                    close(*found, f64::from(expected), 1e-5 * f64::from(most), "a number");
+                    close(*found, f64::from(expected), bound, "a number");
                 }
             }
         }
