@@ -20,7 +20,7 @@ use crossbar_systems::transfer::linear_basis::BasisWidth;
 use crossbar_systems::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
-use super::StudyFiles;
+use super::{StudyFiles, number};
 
 /// A triangle in the plane z = 0, its vertices, and a camera above it.
 fn triangle() -> (Mesh, Vertices, LitView) {
