@@ -76,7 +76,7 @@ fn main() {
     let shader = Shader::new(&teapot);
     let Multiplies { per_cluster, per_vertex } = shader.multiplies(&light);
     // The size is part of the name, so that it is reported with the time.
-    let label = format!("{} MB", shader.bytes() / 1_000_000);
+    let label = format!("{} MB", teapot.size().total() / 1_000_000);
     group.throughput(Throughput::Elements(per_cluster));
     group.bench_function(BenchmarkId::new("clusters", label), |bench| {
         bench.iter(|| black_box(shader.per_cluster(&light).expect("products")));
@@ -90,7 +90,7 @@ fn main() {
     });
     let exact: Vec<[f64; 3]> = light.iter().map(|rgb| rgb.map(f64::from)).collect();
     group.bench_function("plain loops in f64", |bench| {
-        bench.iter(|| black_box(plain::transferred_of_code(&teapot, &exact).expect("radiance")));
+        bench.iter(|| black_box(plain::transferred(&teapot, &exact).expect("radiance")));
     });
     group.finish();
     drop(teapot);

@@ -43,6 +43,10 @@ pub fn transmittance(eta: f64, cosine: f64) -> f64 {
 /// Fresnel reflectance in Cook and Torrance's form, from the reflectance at normal incidence, in [0, 1), which
 /// determines the refractive index. `cosine` is in [0, 1].
 pub fn dielectric(normal_incidence: f64, cosine: f64) -> f64 {
+    // Without contrast, the formula leaves rounding errors.
+    if normal_incidence == 0.0 {
+        return 0.0;
+    }
     let root = normal_incidence.sqrt();
     reflectance(cosine, (1.0 - root) / (1.0 + root))
 }

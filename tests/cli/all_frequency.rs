@@ -119,6 +119,10 @@ fn a_model_stands_on_a_ground() {
         });
         assert!(pictures[0] != pictures[1] && pictures[1] != pictures[2], "{verb}: the ground, and its compression");
     }
+    let kept = fs::read(&ground_model).expect("a model");
+    let over = crossbar(&["all-frequency", "precompute", &ground_model, "--ground", "8", "--out", &out], "");
+    assert_eq!(over.code, Some(2), "the ground's model would overwrite the model: {}", over.stderr);
+    assert_eq!(fs::read(&ground_model).expect("a model"), kept);
     let other = crossbar(&["all-frequency", "render", &out, "--model", STEP, "--ground", SIGHT, "--out", &page], "");
     assert_eq!(other.code, Some(2), "a file that names no model is no ground: {}", other.stderr);
 }

@@ -132,10 +132,11 @@ fn findings(
     // Weights and representatives in single precision.
     let clustered = 4 * (all + weights) as u64;
     let blocks: usize = coded.segments.iter().map(|part| part.representatives.block_count()).sum();
-    let sum = |of: &dyn Fn(&SegmentTally) -> f64| tallies.iter().map(of).sum::<f64>();
+    let sum = |of: &dyn Fn(&SegmentTally) -> f64| 0.0 + tallies.iter().map(of).sum::<f64>();
     let squares = sum(&|part| part.squares);
-    let after = sum(&|part| part.coded_squared_error) / squares;
-    let before = sum(&|part| part.squared_error) / squares;
+    let share = |error: f64| if error > 0.0 { error / squares } else { 0.0 };
+    let after = share(sum(&|part| part.coded_squared_error));
+    let before = share(sum(&|part| part.squared_error));
     let [transfer, clusters, code] = [0, 1, 2].map(|step| sum(&|part| part.seconds[step]));
     found.fields(json!({
         "vertices": coded.vertices, "terms": coded.rows, "omega": census.omega(),

@@ -4,15 +4,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use refsim::device::Profile;
-use refsim::texture::TexelFormat;
 
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
 use crate::all_frequency::on_card::{ProductOptions, ProductPlace, VertexColors};
 use crate::cli::Problem;
 use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::model::model_of;
-use crate::cli::transfer::picture::{OnCardArgs, PictureArgs};
+use crate::cli::transfer::picture::{OnCardArgs, PictureArgs, TransferFiles};
 use crate::options::number;
 use crate::scene::{Material, Surface};
 use crate::study::prt::{AllFrequencyOnCard, LitModel, LitPart};
@@ -21,13 +19,8 @@ use crate::transfer::file::MeshDigest;
 /// Model, light and camera.
 #[derive(Debug, clap::Args)]
 struct LitArgs {
-    /// A file with visibility or coded transfer; if it has both, the coded transfer is drawn
-    #[arg(value_name = "FILE.npz")]
-    file: PathBuf,
-
-    /// A file with the visibility of the same model, to measure the error that compression adds
-    #[arg(long, value_name = "X.npz")]
-    original: Option<PathBuf>,
+    #[command(flatten)]
+    transfer: TransferFiles,
 
     /// Number of light coefficients to keep, in descending order of area times magnitude [default: all]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=6144))]
@@ -44,14 +37,13 @@ struct LitArgs {
 
 impl LitArgs {
     fn files<'a>(&'a self, out: &'a Path) -> StudyFiles<'a> {
-        let files = [&self.file].into_iter().chain(&self.original).chain(&self.ground);
-        StudyFiles::new(Some(out), self.picture.inputs(files))
+        StudyFiles::new(Some(out), self.picture.inputs(self.transfer.paths().chain(&self.ground)))
     }
 
     fn load(&self) -> miette::Result<LitModel> {
-        let file = load_all_frequency(&self.file, None)?;
-        let (model, mesh) = part(file, &self.file, &self.picture.model)?;
-        let original = self.original.as_deref().map(|path| original_of(&model.file, &mesh, path)).transpose()?;
+        let TransferFiles { file, original } = &self.transfer;
+        let (model, mesh) = part(load_all_frequency(file, None)?, file, &self.picture.model)?;
+        let original = original.as_deref().map(|path| original_of(&model.file, &mesh, path)).transpose()?;
         Ok(LitModel {
             view: self.picture.view(&model.mesh)?,
             model,
@@ -106,8 +98,8 @@ Examples:
   crossbar all-frequency render docs/examples/step_all.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
       from uncompressed transfer, under a red and a blue light
 
-Written to --out: index.html (self-contained), pictures, picture.exr. The host shades every pixel for its own view \
-direction.";
+Written to --out: index.html (self-contained), pictures, picture.exr. The host interpolates vertex radiance over \
+triangles.";
 
 /// Draw a model under distant light from its transfer, compressed or not
 #[derive(Debug, clap::Args)]
@@ -173,19 +165,6 @@ pub(super) struct Card {
     out: PathBuf,
 }
 
-impl Card {
-    /// Where products are computed: with signed 16-bit maps if the card has them, otherwise with 8-bit maps.
-    fn place(&self, profile: &Profile) -> ProductPlace {
-        if self.way == WayArg::Colors {
-            return ProductPlace::Vertices(VertexColors::Bytes);
-        }
-        let has = |format: &TexelFormat| profile.limits.texture_formats.contains(format);
-        let fractions = [TexelFormat::Rgba16Snorm, TexelFormat::Rg16Snorm].into_iter().find(has);
-        let map_format = fractions.unwrap_or(TexelFormat::Rgba8Snorm);
-        ProductPlace::Pixels(ProductOptions { map_format, ..ProductOptions::default() })
-    }
-}
-
 impl StudyArgs for Card {
     type Study = AllFrequencyOnCard;
     const QUICKER: &'static str = "a smaller `--size`";
@@ -196,7 +175,10 @@ impl StudyArgs for Card {
 
     fn study(&self) -> miette::Result<AllFrequencyOnCard> {
         let card = self.card.setting("r350")?;
-        let place = self.place(&card.profile);
+        let place = match self.way {
+            WayArg::Colors => ProductPlace::Vertices(VertexColors::Bytes),
+            WayArg::Products => ProductPlace::Pixels(ProductOptions::of(&card.profile)),
+        };
         Ok(AllFrequencyOnCard { lit: self.lit.load()?, place, card })
     }
 }

@@ -60,6 +60,12 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let path = args.of.out.as_path();
+    let ground_model = path.with_extension("ground.obj");
+    let is_model = matches!((args.of.model.canonicalize(), ground_model.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    if args.ground.is_some() && is_model {
+        let what = format!("the model of the ground, {}, would overwrite the model", ground_model.display());
+        return Err(Problem::usage(what, "give another `--out`").into());
+    }
     let reflectance =
         args.reflectance.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
     let (caster, model, vertices) = args.of.load(None)?;
@@ -81,12 +87,12 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     note_vertices(&mut found, &vertices, &[]);
     caster.record().iter().for_each(|record| record.report(&mut found));
     let below = ground.as_ref().map(|ground| -> miette::Result<_> {
-        let [path, model] = ["ground.npz", "ground.obj"].map(|ending| path.with_extension(ending));
-        let name = path_from(&path, &model).into_diagnostic()?;
+        let path = path.with_extension("ground.npz");
+        let name = path_from(&path, &ground_model).into_diagnostic()?;
         let (maps, mut below) = (of_ground.counted_from(count), Findings::new("Visibility"));
         write_sight(&ground.vertices, maps, Reflectance::Diffuse, (&path, Some(name)), &mut below)?;
-        write_file(&model, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;
-        written(&mut below, [("model", Some(model.as_path()))]);
+        write_file(&ground_model, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;
+        written(&mut below, [("model", Some(ground_model.as_path()))]);
         found.print("ground    below the model, diffuse".to_owned());
         below.printed_lines().iter().for_each(|line| found.print(line.clone()));
         Ok(below.plain_document())

@@ -9,7 +9,7 @@ use crate::cli::transfer::model::model_of;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given};
 use crate::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, CpcaStepKind, Signal, compress,
+    Clustering, Compression, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, CpcaStepKind, Signal, compress,
 };
 use crate::cpca::coherence::{Reclassified, reclassify};
 use crate::options::number;
@@ -77,8 +77,9 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let options = args.options(&signal)?;
     let bar = ProgressBar::new("vectors", options.vectors as u64 + 1).quicker("fewer `--clusters`");
     let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, options.vectors as u64 + 1);
-    let Compression { mut clustering, steps } =
-        compress(&signal, &options, observe).map_err(|error| refused(&error))?;
+    let Compression { mut clustering, steps } = compress(&signal, &options, observe).map_err(|error| {
+        Problem::usage(error.to_string(), error.advice().unwrap_or("see `crossbar cpca compress --help`"))
+    })?;
     drop(bar);
     let provenance = Some(args.provenance(&options, &clustering, &steps));
     let (mut moved, energy) = (None, signal.sum_of_squares());
@@ -86,7 +87,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         let found = reclassify(&signal, &clustering, vertices.triangles(), share);
         let help = "give the model from which the transfer was made";
         let found = found.map_err(|error| Problem::usage(error.to_string(), help))?;
-        moved = Some(MovedVertices::new(&found, vertices.triangles().len(), energy));
+        moved = Some(moved_vertices(&found, vertices.triangles().len(), energy));
         clustering = found.clustering;
     }
     let found = findings(args, (&signal, energy), &clustering, &steps, moved);
@@ -147,42 +148,21 @@ impl Args {
     }
 }
 
-fn refused(error: &CpcaError) -> Problem {
-    let help = match error {
-        CpcaError::Clusters { .. } => "choose fewer `--clusters`, or use a larger signal",
-        CpcaError::Vectors { .. } => "choose fewer `--vectors`",
-        _ => "see `crossbar cpca compress --help`",
-    };
-    Problem::usage(error.to_string(), help)
-}
-
 /// The changes by reclassification (section 5 of the paper), as a line and as JSON.
-struct MovedVertices(String, Value);
-
-impl MovedVertices {
-    fn new(found: &Reclassified, triangles: usize, energy: f64) -> Self {
-        let &Reclassified { moved, added_error, drawn, .. } = found;
-        let [before, after] = drawn.map(|drawn| drawn as f64 / triangles.max(1) as f64);
-        let share = measured(if energy > 0.0 { added_error / energy } else { 0.0 });
-        let line = format!(
-            "moved     {} vertices; the error grew by {share} of the signal's sum of squares; each triangle was drawn \
-             {before:.3} times on average, now {after:.3}",
-            counted(moved)
-        );
-        let document = json!({
-            "triangles": triangles, "vertices_moved": moved, "added_squared_error": added_error,
-            "triangles_drawn": { "clusters": drawn[0], "reclassified": drawn[1] },
-        });
-        Self(line, document)
-    }
-}
-
-const fn word(kind: CpcaStepKind) -> &'static str {
-    match kind {
-        CpcaStepKind::Classified => "classified",
-        CpcaStepKind::Fitted => "fitted",
-        CpcaStepKind::Redistributed => "redistributed",
-    }
+fn moved_vertices(found: &Reclassified, triangles: usize, energy: f64) -> (String, Value) {
+    let &Reclassified { moved, added_error, drawn, .. } = found;
+    let [before, after] = drawn.map(|drawn| drawn as f64 / triangles.max(1) as f64);
+    let share = measured(if energy > 0.0 { added_error / energy } else { 0.0 });
+    let line = format!(
+        "moved     {} vertices; the error grew by {share} of the signal's sum of squares; each triangle was drawn \
+         {before:.3} times on average, now {after:.3}",
+        counted(moved)
+    );
+    let document = json!({
+        "triangles": triangles, "vertices_moved": moved, "added_squared_error": added_error,
+        "triangles_drawn": { "clusters": drawn[0], "reclassified": drawn[1] },
+    });
+    (line, document)
 }
 
 /// Table of the last step for each number of vectors, and every redistribution; the document has all steps.
@@ -192,7 +172,7 @@ fn table(steps: &[CpcaStep], energy: f64) -> Table {
     let row = |(at, step): (usize, &CpcaStep)| {
         let share = (energy > 0.0).then(|| Cell::measured(100.0 * step.squared_error / energy));
         let error = Cell::measured(step.squared_error);
-        [(at + 1).into(), step.vectors.into(), word(step.kind).into(), error, share.into()]
+        [(at + 1).into(), step.vectors.into(), step.kind.to_string().into(), error, share.into()]
     };
     Table::new("Steps", &["steps", "vectors", "ends", "squared error", "of the signal (%)"])
         .with(steps.iter().enumerate().filter(shown).map(row))
@@ -203,13 +183,13 @@ fn findings(
     (signal, energy): (&Signal, f64),
     clustering: &Clustering,
     steps: &[CpcaStep],
-    moved: Option<MovedVertices>,
+    moved: Option<(String, Value)>,
 ) -> Findings {
     let mut found = Findings::new("Clustered principal components");
     let (numbers, stored) = (signal.values().len(), clustering.stored_numbers());
     let error = clustering.squared_error(signal);
     let relative = if error > 0.0 { error / energy } else { 0.0 };
-    let step = |&CpcaStep { vectors, kind, moved, squared_error }: &CpcaStep| json!({ "vectors": vectors, "step": word(kind), "moved": moved, "squared_error": squared_error });
+    let step = |&CpcaStep { vectors, kind, moved, squared_error }: &CpcaStep| json!({ "vectors": vectors, "step": kind.to_string(), "moved": moved, "squared_error": squared_error });
     found.fields(json!({
         "points": signal.points(),
         "numbers_per_point": signal.dimension(),

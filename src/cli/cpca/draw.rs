@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use refsim::texture::TexelFormat;
-
 use crate::cli::Problem;
 use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::model::model_of;
-use crate::cli::transfer::picture::{OnCardArgs, PictureArgs};
-use crate::cpca::on_card::PrtCardOptions;
+use crate::cli::transfer::picture::{OnCardArgs, PictureArgs, TransferFiles};
 use crate::study::prt::{OnCard, Rendering};
 use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
 
@@ -30,13 +27,8 @@ triangles.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = RENDER_EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Render {
-    /// A file with transfer or clusters; if it has both, the clusters are drawn
-    #[arg(value_name = "FILE.npz")]
-    file: PathBuf,
-
-    /// Uncompressed transfer of the same model, to compare with
-    #[arg(long, value_name = "X.npz")]
-    original: Option<PathBuf>,
+    #[command(flatten)]
+    transfer: TransferFiles,
 
     #[command(flatten)]
     picture: PictureArgs,
@@ -51,14 +43,15 @@ impl StudyArgs for Render {
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), self.picture.inputs([&self.file].into_iter().chain(&self.original)))
+        StudyFiles::new(Some(&self.out), self.picture.inputs(self.transfer.paths()))
     }
 
     fn study(&self) -> miette::Result<Rendering> {
-        let file = load_prt(&self.file, None)?;
-        let (model, vertices, digest) = model_of(&self.file, file.mesh, &self.picture.model, None)?;
+        let TransferFiles { file: path, original } = &self.transfer;
+        let file = load_prt(path, None)?;
+        let (model, vertices, digest) = model_of(path, file.mesh, &self.picture.model, None)?;
         let light_order = light_order(&file)?;
-        let original = self.original.as_ref().map(|path| -> miette::Result<_> {
+        let original = original.as_ref().map(|path| -> miette::Result<_> {
             let PrtFile { meaning, transfer, .. } = load_prt(path, Some(&digest))?;
             let fits = transfer.filter(|_| meaning == file.meaning);
             Ok(fits.ok_or_else(|| {
@@ -136,13 +129,9 @@ impl StudyArgs for Card {
             Problem::usage(what, "run `crossbar cpca compress` to make clusters")
         })?;
         let light_order = light_order(&file)?;
-        // Signed 16-bit maps if the card has them, otherwise signed 8-bit maps.
-        let fine = card.profile.limits.texture_formats.contains(&TexelFormat::Rgba16Snorm);
-        let map_format = if fine { TexelFormat::Rgba16Snorm } else { TexelFormat::Rgba8Snorm };
         Ok(OnCard {
             view: self.picture.view(&model.mesh)?,
             light: self.picture.light.of_order(light_order)?,
-            options: PrtCardOptions { map_format, ..PrtCardOptions::default() },
             card,
             meaning: file.meaning,
             vertices,

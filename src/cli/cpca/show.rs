@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::cli::words::counted;
 use crate::clustering::{AffineSubspace, Clustering};
 use crate::report::{Cell, Findings, Table};
-use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
+use crate::transfer::file::{PrtMeaning, load_prt};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,39 +33,53 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load_prt(&args.file, None)?;
     let mut found = Findings::new("Low-frequency transfer");
-    found.fields(document(&file));
-    all(&file, &mut found);
-    Ok(found)
-}
-
-fn all(file: &PrtFile, found: &mut Findings) {
-    match &file.meaning {
-        PrtMeaning::Numbers { dimension } => found.introduce(format!("numbers   {dimension} per point")),
-        PrtMeaning::Transfer { channels, exit_functions, light_order, includes_albedo } => {
-            let rows = exit_functions.len();
-            let what = if exit_functions[..] == [0] { "diffuse" } else { "glossy" };
-            let columns = light_order * light_order;
-            found.introduce(format!("transfer  {what}, {rows} x {columns}"));
-            let functions: Vec<String> = exit_functions.iter().map(u16::to_string).collect();
-            found.introduce(format!("rows      functions {} of exit radiance", functions.join(", ")));
-            found.introduce(format!("columns   light of order {light_order}"));
-            found.introduce(format!("channels  {channels}"));
-            found.introduce(format!("albedo    {}", if *includes_albedo { "included" } else { "to be multiplied" }));
+    let mut say = |what: &str, text: String| found.introduce(format!("{what:9} {text}"));
+    let meaning = match &file.meaning {
+        PrtMeaning::Numbers { dimension } => {
+            say("numbers", format!("{dimension} per point"));
+            json!({ "numbers_per_point": dimension })
         }
-    }
-    found.introduce(format!("points    {}", counted(file.points())));
-    if let Some(mesh) = file.mesh {
-        found.introduce(format!("mesh      {mesh}"));
-    }
+        PrtMeaning::Transfer { channels, exit_functions, light_order, includes_albedo } => {
+            let what = if exit_functions[..] == [0] { "diffuse" } else { "glossy" };
+            let functions: Vec<String> = exit_functions.iter().map(u16::to_string).collect();
+            say("transfer", format!("{what}, {} x {}", functions.len(), light_order * light_order));
+            say("rows", format!("functions {} of exit radiance", functions.join(", ")));
+            say("columns", format!("light of order {light_order}"));
+            say("channels", channels.to_string());
+            say("albedo", if *includes_albedo { "included" } else { "to be multiplied" }.to_owned());
+            json!({ "channels": channels, "exit_functions": exit_functions, "light_order": light_order,
+                    "includes_albedo": includes_albedo })
+        }
+    };
+    say("points", counted(file.points()));
+    let mesh = file.mesh.map(|mesh| {
+        say("mesh", mesh.to_string());
+        let [vertex_crc, triangle_crc] = [mesh.vertex_crc, mesh.triangle_crc].map(|crc| format!("{crc:08x}"));
+        json!({ "vertices": mesh.vertices, "triangles": mesh.triangles, "tangents": mesh.tangents.to_string(),
+                "vertex_crc": vertex_crc, "triangle_crc": triangle_crc })
+    });
     let parts = [file.transfer.is_some().then_some("transfer"), file.clustering.is_some().then_some("clusters")];
-    found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
-    let Some(clustering) = &file.clustering else { return };
-    if let Some(line) = &file.provenance {
-        found.introduce(format!("made      {line}"));
-    }
-    let [stored, numbers] = [clustering.stored_numbers(), clustering.points() * clustering.dimension()].map(counted);
-    found.introduce(format!("stored    {stored} numbers in place of {numbers}"));
-    found.table(spectra(clustering));
+    say("holds", parts.into_iter().flatten().collect::<Vec<_>>().join(" and "));
+    // The words of the provenance line, by name.
+    let made: Option<BTreeMap<&str, &str>> = file.provenance.as_deref().map(|line| {
+        say("made", line.to_owned());
+        line.split(' ').map(|word| word.split_once('=').unwrap_or((word, "yes"))).collect()
+    });
+    let clusters = file.clustering.as_ref().map(|clustering| {
+        let (stored, numbers) = (clustering.stored_numbers(), clustering.points() * clustering.dimension());
+        say("stored", format!("{} numbers in place of {}", counted(stored), counted(numbers)));
+        let cluster = |(subspace, points): (&AffineSubspace, usize)| {
+            json!({ "points": points, "vectors": subspace.len(), "eigenvalues": subspace.eigenvalues })
+        };
+        let clusters: Vec<Value> = clustering.subspaces().iter().zip(sizes(clustering)).map(cluster).collect();
+        json!({ "stored_numbers": stored, "clusters": clusters })
+    });
+    found.fields(json!({
+        "meaning": meaning, "points": file.points(), "mesh": mesh, "has_transfer": file.transfer.is_some(),
+        "clusters": clusters, "made": made,
+    }));
+    file.clustering.iter().for_each(|clustering| found.table(spectra(clustering)));
+    Ok(found)
 }
 
 fn spectra(clustering: &Clustering) -> Table {
@@ -83,31 +97,4 @@ fn sizes(clustering: &Clustering) -> Vec<usize> {
     let mut sizes = vec![0; clustering.subspaces().len()];
     clustering.of_point().iter().for_each(|&cluster| sizes[cluster as usize] += 1);
     sizes
-}
-
-fn document(file: &PrtFile) -> Value {
-    let meaning = match &file.meaning {
-        PrtMeaning::Numbers { dimension } => json!({ "numbers_per_point": dimension }),
-        PrtMeaning::Transfer { channels, exit_functions, light_order, includes_albedo } => json!({
-            "channels": channels, "exit_functions": exit_functions, "light_order": light_order,
-            "includes_albedo": includes_albedo,
-        }),
-    };
-    let mesh = file.mesh.map(|mesh| {
-        let [vertex_crc, triangle_crc] = [mesh.vertex_crc, mesh.triangle_crc].map(|crc| format!("{crc:08x}"));
-        json!({ "vertices": mesh.vertices, "triangles": mesh.triangles, "tangents": mesh.tangents.to_string(),
-                "vertex_crc": vertex_crc, "triangle_crc": triangle_crc })
-    });
-    let clusters = file.clustering.as_ref().map(|clustering| {
-        let cluster = |(subspace, points): (&AffineSubspace, usize)| {
-            json!({ "points": points, "vectors": subspace.len(), "eigenvalues": subspace.eigenvalues })
-        };
-        let clusters: Vec<Value> = clustering.subspaces().iter().zip(sizes(clustering)).map(cluster).collect();
-        json!({ "stored_numbers": clustering.stored_numbers(), "clusters": clusters })
-    });
-    // The words of the provenance line, by name.
-    let made: Option<BTreeMap<&str, &str>> = (file.provenance.as_deref())
-        .map(|line| line.split(' ').map(|word| word.split_once('=').unwrap_or((word, "yes"))).collect());
-    json!({ "meaning": meaning, "points": file.points(), "mesh": mesh, "has_transfer": file.transfer.is_some(),
-            "clusters": clusters, "made": made })
 }

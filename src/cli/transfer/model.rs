@@ -23,7 +23,7 @@ use crate::transfer::{Tangents, Vertices};
 pub(in crate::cli) struct ModelArgs {
     // Names come from the one list of built models, `meshes`.
     #[arg(value_name = "MODEL", help = transfer_model_help())]
-    model: PathBuf,
+    pub(in crate::cli) model: PathBuf,
 
     /// The source of the tangents of local frames: `any`, `texture` (then the file's materials are not read), or an
     /// axis X,Y,Z

@@ -13,6 +13,24 @@ use crate::options::Size;
 use crate::options::number;
 use crate::study::prt::{CardSetting, LitView};
 
+/// The transfer of a picture, and the transfer to compare it with.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct TransferFiles {
+    /// A file that `precompute` or `compress` wrote; if it holds compressed transfer, this is drawn
+    #[arg(value_name = "FILE.npz")]
+    pub(in crate::cli) file: PathBuf,
+
+    /// The file that was compressed, to measure the error of the compression
+    #[arg(long, value_name = "X.npz")]
+    pub(in crate::cli) original: Option<PathBuf>,
+}
+
+impl TransferFiles {
+    pub(in crate::cli) fn paths(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.file].into_iter().chain(&self.original)
+    }
+}
+
 /// A picture of a model.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct PictureArgs {

@@ -27,4 +27,4 @@ use nearest::ViewTarget;
 pub use pass::{BILINEAR, FullScreenPass, PingPong, ReadTexture, constants, nearest};
 pub use refsim::raster::full_screen_quad;
 pub use seen::{RasterizedEyes, SeenPixel, seen_pixels};
-pub use texels::{Texels, new_target, new_texture};
+pub use texels::{Texels, new_target, new_texture, signed_format};

@@ -1,5 +1,6 @@
 //! Rectangles of floats on the host, and their transfer to and from textures of a card.
 
+use refsim::device::Profile;
 use refsim::machine::{Machine, MachineError, TextureId};
 use refsim::num::Format;
 use refsim::texture::{Image, SignedTexelMinimum, TargetRounding, TexelFormat, TextureError, TextureKind};
@@ -123,4 +124,10 @@ pub fn new_texture(
 fn extents([width, height]: [usize; 2]) -> [u32; 3] {
     let extent = |size| u32::try_from(size).unwrap_or(u32::MAX);
     [extent(width), extent(height), 1]
+}
+
+/// The format of a device's maps of signed fractions: the first of `formats` that it has, otherwise signed 8 bits.
+pub fn signed_format(profile: &Profile, formats: &[TexelFormat]) -> TexelFormat {
+    let has = |format: &&TexelFormat| profile.limits.texture_formats.contains(*format);
+    formats.iter().find(has).copied().unwrap_or(TexelFormat::Rgba8Snorm)
 }

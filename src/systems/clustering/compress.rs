@@ -7,7 +7,8 @@ use super::axes::Axes;
 use super::fit::{Fitted, fit};
 use super::nearest::nearest;
 use super::products::KeptProducts;
-use super::{Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal};
+use super::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal};
+use crate::error::{InputError, input_error};
 
 /// A step of the compression, and its result.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +25,8 @@ pub struct CpcaStep {
 }
 
 /// The kind of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum CpcaStepKind {
     /// Each point was assigned to the cluster that approximates it best.
     Classified,
@@ -48,7 +50,7 @@ pub fn compress(
     signal: &Signal,
     options: &CpcaOptions,
     observe: impl FnMut(&CpcaStep),
-) -> Result<Compression, CpcaError> {
+) -> Result<Compression, InputError> {
     compress_at(SimdLevel::widest(), signal, options, observe)
 }
 
@@ -59,7 +61,7 @@ pub fn compress_at(
     signal: &Signal,
     options: &CpcaOptions,
     observe: impl FnMut(&CpcaStep),
-) -> Result<Compression, CpcaError> {
+) -> Result<Compression, InputError> {
     let mut work = Work::new(level, signal, options, observe)?;
     work.settle(options.vq_iterations)?;
     for vectors in options.method.growth(options.vectors) {
@@ -93,7 +95,7 @@ struct Work<'a, O> {
 }
 
 impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
-    fn new(level: SimdLevel, signal: &'a Signal, options: &CpcaOptions, observe: O) -> Result<Self, CpcaError> {
+    fn new(level: SimdLevel, signal: &'a Signal, options: &CpcaOptions, observe: O) -> Result<Self, InputError> {
         let start = options.start_points(signal)?;
         let at = |&point: &u32| signal.point(point as usize).iter().map(|&value| f64::from(value)).collect();
         Ok(Self {
@@ -118,7 +120,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     }
 
     /// The generalised LBG algorithm for the current number of vectors.
-    fn settle(&mut self, iterations: usize) -> Result<(), CpcaError> {
+    fn settle(&mut self, iterations: usize) -> Result<(), InputError> {
         for _ in 0..iterations {
             if self.classify() == 0 {
                 break;
@@ -147,7 +149,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         moved
     }
 
-    fn fit_all(&mut self, vectors: usize) -> Result<(), CpcaError> {
+    fn fit_all(&mut self, vectors: usize) -> Result<(), InputError> {
         self.vectors = vectors;
         self.changed.fill(true);
         self.fit(vectors)?;
@@ -157,7 +159,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
 
     /// Fits the clusters whose points have changed. A cluster without points keeps its mean, which becomes 0 in the
     /// linear form once there are vectors.
-    fn fit(&mut self, vectors: usize) -> Result<(), CpcaError> {
+    fn fit(&mut self, vectors: usize) -> Result<(), InputError> {
         let members = Members::new(&self.of_point, self.clusters.len());
         let (signal, form, level) = (self.signal, self.form, self.level);
         let fit_one = |(cluster, ((fitted, changed), kept)): (usize, ((&mut Fitted, &mut bool), &mut KeptProducts))| {
@@ -173,7 +175,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         let clusters =
             self.clusters.par_iter_mut().zip(&mut self.changed).zip(&mut self.kept).enumerate().with_max_len(1);
         let failed = clusters.map(fit_one).filter_map(Result::err).min_by_key(|&(cluster, _)| cluster);
-        failed.map_or(Ok(()), |(cluster, reason)| Err(CpcaError::Factor { cluster, reason }))
+        failed.map_or(Ok(()), |(cluster, reason)| Err(no_components(cluster, &reason)))
     }
 
     fn fitted(&mut self, kind: CpcaStepKind) {
@@ -182,7 +184,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     }
 
     /// The additional iterations of section 4.3.
-    fn adapt(&mut self, rounds: usize) -> Result<(), CpcaError> {
+    fn adapt(&mut self, rounds: usize) -> Result<(), InputError> {
         let budget = self.vectors * self.signal.points();
         for _ in 0..rounds {
             let moved = self.classify();
@@ -207,11 +209,15 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(())
     }
 
-    fn fit_one(&mut self, cluster: usize, members: &Members, count: usize) -> Result<Fitted, CpcaError> {
+    fn fit_one(&mut self, cluster: usize, members: &Members, count: usize) -> Result<Fitted, InputError> {
         let (points, kept) = (members.of(cluster), &mut self.kept[cluster]);
         let fitted = fit(self.signal, points, count, self.form, self.level, kept);
-        fitted.map_err(|reason| CpcaError::Factor { cluster, reason })
+        fitted.map_err(|reason| no_components(cluster, &reason))
     }
+}
+
+fn no_components(cluster: usize, reason: &InputError) -> InputError {
+    input_error!("the principal components of cluster {cluster} cannot be found: {reason}")
 }
 
 /// Distributes the budget to clusters; returns the number of vectors of each. Vectors are added by decreasing reduction

@@ -28,5 +28,5 @@ mod signal;
 
 pub use compress::{Compression, CpcaStep, CpcaStepKind, compress, compress_at};
 pub use compressed::{AffineSubspace, Clustering};
-pub use options::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions};
+pub use options::{CpcaForm, CpcaMethod, CpcaOptions};
 pub use signal::Signal;

@@ -1,9 +1,7 @@
 //! Options of the compression, and errors.
 
-use thiserror::Error;
-
 use super::Signal;
-use crate::error::InputError;
+use crate::error::{InputError, ensure};
 use crate::geom::random::CounterRng;
 
 /// Options of the compression of a signal.
@@ -62,34 +60,6 @@ pub enum CpcaMethod {
     },
 }
 
-/// Reasons for which a signal cannot be compressed. Points count from 0.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages explain the fields")]
-pub enum CpcaError {
-    /// No clusters, or more clusters than points.
-    #[error("expected 1 to {points} clusters, one per point at most, found {clusters}")]
-    Clusters { clusters: usize, points: usize },
-    /// More vectors than dimensions.
-    #[error("expected at most {dimension} vectors per cluster, one per dimension, found {vectors}")]
-    Vectors { vectors: usize, dimension: usize },
-    /// The linear form without vectors approximates nothing.
-    #[error("expected at least 1 vector per cluster in the linear form, which has no means, found 0")]
-    NothingLinear,
-    /// No iterations.
-    #[error("expected at least 1 iteration for each number of vectors, found 0")]
-    NoIterations,
-    /// The principal components of a cluster cannot be computed.
-    #[error("the principal components of cluster {cluster} cannot be found: {reason}")]
-    Factor { cluster: usize, reason: InputError },
-}
-
-impl From<CpcaError> for InputError {
-    fn from(error: CpcaError) -> Self {
-        Self::of("", error)
-    }
-}
-
 impl CpcaMethod {
     /// The method with this maximum number of rounds of redistribution, if it redistributes.
     #[must_use]
@@ -117,21 +87,21 @@ impl CpcaMethod {
 
 impl CpcaOptions {
     /// The start points, after a check of all options against a signal.
-    pub(super) fn start_points(&self, signal: &Signal) -> Result<Vec<u32>, CpcaError> {
+    pub(super) fn start_points(&self, signal: &Signal) -> Result<Vec<u32>, InputError> {
         let (points, dimension) = (signal.points(), signal.dimension());
         let &Self { clusters, vectors, vq_iterations, iterations, .. } = self;
-        if !(1..=points).contains(&clusters) {
-            return Err(CpcaError::Clusters { clusters, points });
-        }
-        if vectors > dimension {
-            return Err(CpcaError::Vectors { vectors, dimension });
-        }
-        if self.form == CpcaForm::Linear && vectors == 0 {
-            return Err(CpcaError::NothingLinear);
-        }
-        if vq_iterations.min(iterations) == 0 {
-            return Err(CpcaError::NoIterations);
-        }
+        ensure!((1..=points).contains(&clusters),
+            "expected 1 to {points} clusters, one per point at most, found {clusters}";
+            help "choose fewer clusters, or use a larger signal");
+        ensure!(
+            vectors <= dimension,
+            "expected at most {dimension} vectors per cluster, one per dimension, found {vectors}"
+        );
+        ensure!(
+            self.form == CpcaForm::Affine || vectors > 0,
+            "expected at least 1 vector per cluster in the linear form, which has no means, found 0"
+        );
+        ensure!(vq_iterations.min(iterations) > 0, "expected at least 1 iteration for each number of vectors, found 0");
         Ok(draw(self.seed, points as u32, clusters))
     }
 }

@@ -1,18 +1,18 @@
 //! Compression by plain loops in f64, which shares no arithmetic with the fast path: every step refits every cluster by
-//! Jacobi rotations of C^T C, and compares every point with every cluster. It is for tests, because its time grows with
-//! the cube of the dimension.
+//! nalgebra's eigenvectors of C^T C, and compares every point with every cluster. It is for tests, because its time
+//! grows with the cube of the dimension.
 
-use super::{AffineSubspace, Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal};
+use super::{AffineSubspace, Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal};
+use crate::error::InputError;
+use crate::linalg::{Matrix, SymmetricEigen};
 
 /// Threshold relative to the squared distance from the mean, below which an error counts as 0.
 const NO_ERROR: f64 = 9.094_947_017_729_282e-13;
 /// Threshold relative to the largest eigenvalue; eigenvalues up to it get no vector.
 const NO_EIGENVALUE: f64 = 5.684_341_886_080_802e-14;
-/// Number of sweeps over all pairs of components.
-const SWEEPS: usize = 60;
 
-/// Compresses a signal. Fails with [`CpcaError`] if the options do not fit the signal.
-pub fn compress(signal: &Signal, options: &CpcaOptions) -> Result<Clustering, CpcaError> {
+/// Compresses a signal. Fails if the options do not fit the signal.
+pub fn compress(signal: &Signal, options: &CpcaOptions) -> Result<Clustering, InputError> {
     let start = options.start_points(signal)?;
     let mut plain = Plain {
         points: (0..signal.points()).map(|p| signal.point(p).iter().map(|&v| f64::from(v)).collect()).collect(),
@@ -210,64 +210,15 @@ fn principal_components(points: &[&Vec<f64>], linear: bool) -> PlainCluster {
     let dimension = points[0].len();
     let mean_of = |j: usize| points.iter().map(|point| point[j]).sum::<f64>() / points.len() as f64;
     let mean: Vec<f64> = (0..dimension).map(|j| if linear { 0.0 } else { mean_of(j) }).collect();
-    let mut matrix = vec![vec![0.0; dimension]; dimension];
-    for (i, row) in matrix.iter_mut().enumerate() {
-        for (j, value) in row.iter_mut().enumerate() {
+    let mut matrix = Matrix::zeros([dimension; 2]).expect("a small matrix");
+    for i in 0..dimension {
+        for (j, value) in matrix.row_mut(i).iter_mut().enumerate() {
             *value = points.iter().map(|point| (point[i] - mean[i]) * (point[j] - mean[j])).sum();
         }
     }
-    let (values, vectors) = jacobi(matrix);
-    let mut order: Vec<usize> = (0..dimension).collect();
-    order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    order.retain(|&i| {
-        (points.len() > 1 || linear) && values[i] > values.iter().fold(0.0, |a: f64, &b| a.max(b)) * NO_EIGENVALUE
-    });
-    let vector = |&i: &usize| {
-        let vector: Vec<f64> = vectors.iter().map(|row| row[i]).collect();
-        let mut largest = 0;
-        for (j, component) in vector.iter().enumerate() {
-            if component.abs() > vector[largest].abs() {
-                largest = j;
-            }
-        }
-        let sign = vector[largest].signum();
-        vector.into_iter().map(|component| component * sign).collect()
-    };
-    let eigenvalues = order.iter().map(|&i| values[i]).collect();
-    PlainCluster { mean, vectors: order.iter().map(vector).collect(), eigenvalues }
-}
-
-/// Eigenvalues of a symmetric matrix, and its eigenvectors as columns, by Jacobi rotations: each rotates a pair of
-/// components so that its off-diagonal element becomes 0.
-fn jacobi(mut a: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let size = a.len();
-    let mut vectors: Vec<Vec<f64>> =
-        (0..size).map(|i| (0..size).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
-    for _ in 0..SWEEPS {
-        let mut rotated = false;
-        for p in 0..size {
-            for q in p + 1..size {
-                let negligible = f64::EPSILON * f64::EPSILON * (a[p][p] * a[q][q]).abs();
-                if a[p][q] == 0.0 || a[p][q] * a[p][q] <= negligible {
-                    continue;
-                }
-                rotated = true;
-                let half = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                let tangent = half.signum() / (half.abs() + (half * half + 1.0).sqrt());
-                let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
-                let sine = tangent * cosine;
-                for row in a.iter_mut().chain(&mut vectors) {
-                    (row[p], row[q]) = (cosine * row[p] - sine * row[q], sine * row[p] + cosine * row[q]);
-                }
-                let (upper, lower) = a.split_at_mut(q);
-                for (x, y) in upper[p].iter_mut().zip(&mut lower[0]) {
-                    (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
-                }
-            }
-        }
-        if !rotated {
-            break;
-        }
-    }
-    ((0..size).map(|i| a[i][i]).collect(), vectors)
+    let SymmetricEigen { values, vectors } = SymmetricEigen::new(&matrix).expect("finite products");
+    let kept = values.iter().take_while(|&&value| value > values[0].max(0.0) * NO_EIGENVALUE);
+    let kept = if points.len() > 1 || linear { kept.count() } else { 0 };
+    let vectors = vectors.rows().take(kept).map(<[f64]>::to_vec).collect();
+    PlainCluster { mean, vectors, eigenvalues: values[..kept].to_vec() }
 }

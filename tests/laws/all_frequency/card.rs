@@ -83,10 +83,14 @@ fn what_is_coarser_is_farther_off() {
 fn the_host_is_that_of_table_1() {
     let bunny = TABLE_1[0].multiplies();
     assert_eq!([bunny.per_cluster / 100_000, bunny.per_vertex / 100_000], [937, 741]);
+    // Printed frame rates without drawing: one rate of the host fits all six models within a factor of 2.
     let host = host_of_table_1().expect("a host");
-    let all: u64 = TABLE_1.iter().map(|model| model.multiplies().per_cluster + model.multiplies().per_vertex).sum();
-    let seconds: f64 = TABLE_1.iter().map(|model| 10.0 / model.frames_in_ten_seconds[1] as f64).sum();
-    assert_relative_eq!(host.time_of(HostOperation::MultiplyAdd, all).seconds(), seconds, max_relative = 1e-3);
+    for model in TABLE_1 {
+        let work = model.multiplies().per_cluster + model.multiplies().per_vertex;
+        let rate = 1.0 / host.time_of(HostOperation::MultiplyAdd, work).seconds();
+        let ratio = 10.0 * rate / model.frames_in_ten_seconds[1] as f64;
+        assert!((0.5..2.0).contains(&ratio), "{}: {ratio}", model.name);
+    }
 }
 
 /// The work of a frame follows from its sizes, and its time from that work: 30 floats per vertex cross the bus.

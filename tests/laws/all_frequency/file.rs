@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crossbar::all_frequency::Reflectance;
-use crossbar::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
+use crossbar::all_frequency::code::{CodeOptions, ScaleOf};
 use crossbar::all_frequency::file::{
     AllFrequencyFile, load_all_frequency, parse_all_frequency, save_all_frequency, write_all_frequency,
 };
@@ -11,7 +11,7 @@ use crossbar::transfer::file::{MeshDigest, parse_prt};
 use crossbar::transfer::linear_basis::BasisWidth;
 use proptest::prelude::*;
 
-use super::coding::compressed;
+use super::coding::coded;
 use super::{all, clutter, factors, trace, vertices};
 use crate::support::forgery_does_no_harm;
 
@@ -31,9 +31,8 @@ fn whole() -> AllFrequencyFile {
     let vertices = vertices(&mesh);
     let maps = trace(&mesh, &vertices, &all(&vertices));
     let reflectance = Reflectance::Factored(factors(3));
-    let transfer = compressed(&vertices, &maps, &reflectance, 2);
     let options = CodeOptions { representative_bits: 9, weight_bits: 11, scale: ScaleOf::Segment };
-    let coded = CodedTransfer::new(&transfer, options).expect("coded");
+    let coded = coded(&vertices, &maps, &reflectance, 2, options);
     let mesh = MeshDigest::new(&vertices);
     let (visibility, coded, model) = (Some(maps), Some(coded), Some("ground.obj".to_owned()));
     AllFrequencyFile { mesh, hats: BasisWidth::OneTexel, reflectance, visibility, coded, model }
@@ -44,9 +43,8 @@ fn small() -> AllFrequencyFile {
     let mesh = clutter(3, 1, 1.0);
     let vertices = vertices(&mesh);
     let maps = trace(&mesh, &vertices, &all(&vertices));
-    let mut transfer = compressed(&vertices, &maps, &Reflectance::Diffuse, 1);
-    transfer.segments.truncate(2);
-    let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
+    let mut coded = coded(&vertices, &maps, &Reflectance::Diffuse, 1, CodeOptions::default());
+    coded.segments.truncate(2);
     let mesh = MeshDigest::new(&vertices);
     let (hats, reflectance) = (BasisWidth::TwoTexels, Reflectance::Diffuse);
     AllFrequencyFile { mesh, hats, reflectance, visibility: None, coded: Some(coded), model: None }

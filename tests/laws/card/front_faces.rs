@@ -226,7 +226,6 @@ fn difference(profile: Profile, exposure: Option<f64>) -> serde_json::Value {
             format: FLOATS,
             sweep: false,
         },
-        options: PrtCardOptions::default(),
     };
     let found = study.findings(&mut |_, _, _| ()).expect("a picture");
     found.document(&Provenance::new("crossbar cpca card"))["difference"].clone()

@@ -150,13 +150,6 @@ fn redistributed_vectors_stay_within_the_budget() {
 }
 
 #[test]
-fn stored_numbers_are_the_papers_metric() {
-    let signal = torus_signal(500, 25, 1);
-    let clustering = compressed(&signal, &options(8, 4, CpcaMethod::Iterative)).clustering;
-    assert_eq!(clustering.stored_numbers(), 500 * 4 + 8 * (4 + 1) * 25);
-}
-
-#[test]
 fn options_that_do_not_fit_are_refused() {
     let signal = torus_signal(10, 3, 0);
     let changes: [fn(&mut CpcaOptions); 5] = [

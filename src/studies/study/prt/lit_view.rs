@@ -92,6 +92,13 @@ impl LitView {
     }
 }
 
+/// The root mean square of differences relative to that of `exact`, in percent; `None` if `exact` is 0.
+pub(super) fn relative_rms(differences: impl Iterator<Item = f64>, exact: impl Iterator<Item = f64>) -> Option<f64> {
+    let apart: f64 = differences.map(|value| value * value).sum();
+    let whole: f64 = exact.map(|value| value * value).sum();
+    (whole > 0.0).then(|| 100.0 * (apart / whole).sqrt())
+}
+
 pub(super) fn mean(color: &[f64; 3]) -> f64 {
     color.iter().sum::<f64>() / 3.0
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::interpolate::SeenSurface;
-use super::lit_view::{LitView, mean};
+use super::lit_view::{LitView, mean, relative_rms};
 use crate::clustering::{Clustering, Signal};
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
@@ -83,11 +83,10 @@ impl Rendering {
         let whole = self.colors(seen, Some(original))?;
         let (mut pictures, difference, largest) =
             self.view.against_original(drawn, &whole, exposure, "compressed minus original")?;
-        let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
-        let ratio = (squares(&mut difference.iter().copied()) / squares(&mut whole.iter().map(mean))).sqrt();
+        let apart = relative_rms(difference.iter().copied(), whole.iter().map(mean));
         let of_picture = "root mean square difference, relative to the picture's root mean square (%)";
         let mut table = Table::new("Compressed against original", &["figure", "value"]).with([
-            [of_picture.into(), Cell::measured(100.0 * ratio)],
+            [of_picture.into(), apart.map(Cell::measured).into()],
             ["largest difference (radiance)".into(), Cell::measured(largest)],
         ]);
         if let Some(clustering) = &self.file.clustering {

@@ -20,7 +20,7 @@ use crossbar_systems::transfer::linear_basis::BasisWidth;
 use crossbar_systems::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
-use super::StudyFiles;
+use super::{StudyFiles, number};
 
 /// A triangle in the plane z = 0, its vertices, and a camera above it.
 fn triangle() -> (Mesh, Vertices, LitView) {
@@ -64,6 +64,10 @@ fn weights_are_barycentric_and_stay_inside() {
 
 /// The picture of a light, from a study of a triangle without transfer.
 fn picture_of(light: DistantLight) -> Picture {
+    StudyFiles::of(&without_transfer(light)).picture("light.png")
+}
+
+fn without_transfer(light: DistantLight) -> LitModel {
     let (mesh, vertices, view) = triangle();
     let file = AllFrequencyFile {
         mesh: MeshDigest::new(&vertices),
@@ -74,7 +78,24 @@ fn picture_of(light: DistantLight) -> Picture {
         model: None,
     };
     let model = LitPart { mesh, vertices, colors: vec![[1.0; 3]], file };
-    StudyFiles::of(&LitModel { view, model, original: None, ground: None, light, keep: None }).picture("light.png")
+    LitModel { view, model, original: None, ground: None, light, keep: None }
+}
+
+/// Without light, there is nothing to which a difference is relative.
+#[test]
+fn black_pictures_are_compared_without_a_ratio() {
+    let (mesh, vertices, view) = triangle();
+    let meaning = PrtMeaning::Transfer { channels: 1, exit_functions: vec![0], light_order: 1, includes_albedo: true };
+    let original = Some(Signal::new(1, vec![1.0; 3]).expect("a signal"));
+    let file = PrtFile { meaning, mesh: None, transfer: original.clone(), clustering: None, provenance: None };
+    let light = HarmonicLight::constant(1, [0.0; 3]).expect("a light");
+    let low = StudyFiles::of(&Rendering { view, mesh, vertices, file, original, light });
+    let mut all = without_transfer(DistantLight::Constant([1.0; 3]));
+    all.original = Some(all.model.file.clone());
+    for files in [low, StudyFiles::of(&all)] {
+        let rows = files.rows("comparison.csv");
+        assert_eq!((rows[0]["value"].as_str(), number(rows.last().expect("rows"), "value")), ("", 0.0));
+    }
 }
 
 /// If a disk's picture is read as a light again, the disk is in its original direction.

@@ -1,11 +1,10 @@
 //! Quantised (coded) transfer of a mesh.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::quantise::{quantise, step};
 use super::{CodeOptions, ScaleOf, SparseRows};
-use crate::all_frequency::compressed::{CompressedSegment, CompressedTransfer};
+use crate::all_frequency::compressed::CompressedSegment;
 use crate::clustering::Clustering;
 use crate::error::InputError;
 
@@ -73,15 +72,6 @@ impl CodeSize {
 }
 
 impl CodedTransfer {
-    /// Quantises compressed transfer. Panics if a segment has more than 65,536 clusters, or a cluster more than 255
-    /// vectors.
-    pub fn new(transfer: &CompressedTransfer, options: CodeOptions) -> Result<Self, InputError> {
-        options.check()?;
-        let segments = transfer.segments.par_iter().map(|part| CodedSegment::new(part, options)).collect();
-        let (rows, coefficients) = (transfer.rows, transfer.coefficients());
-        Ok(Self { rows, coefficients, vertices: transfer.vertices, options, segments })
-    }
-
     /// The first part that is inconsistent with the others, if there is one.
     pub fn fault(&self) -> Option<&'static str> {
         if self.options.check().is_err() {
@@ -127,25 +117,21 @@ impl CodedTransfer {
 }
 
 impl CodedSegment {
-    /// Quantises a compressed segment. Panics as [`CodedTransfer::new`] does.
+    /// Quantises a compressed segment. Panics if it has more than 65,536 clusters, or a cluster more than 255 vectors.
     pub fn code(part: &CompressedSegment, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
-        Ok(Self::new(part, options))
+        let largest: Vec<f64> = vectors(&part.clustering).map(|row| largest(row.iter())).collect();
+        Ok(Self::with_steps(part, options, steps(&largest, options.representative_bits, options.scale)))
     }
 
     /// Quantises a compressed segment with one absolute step for all representatives. Each representative is first
     /// multiplied by the root mean square of its weights, so that its weights are about 1; numbers beyond 16 bits are
-    /// clamped. Weights are coded as in the options. Panics as [`CodedTransfer::new`] does.
+    /// clamped. Weights are coded as in the options. Panics as [`Self::code`] does.
     pub fn code_in_steps(part: &CompressedSegment, step: f64, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let sizes = mean_weights(&part.clustering, &firsts(&counts(&part.clustering)));
         let steps = sizes.into_iter().map(|size| if size > 0.0 { (step / size) as f32 } else { 0.0 });
         Ok(Self::with_steps(part, options, steps.collect()))
-    }
-
-    fn new(part: &CompressedSegment, options: CodeOptions) -> Self {
-        let largest: Vec<f64> = vectors(&part.clustering).map(|row| largest(row.iter())).collect();
-        Self::with_steps(part, options, steps(&largest, options.representative_bits, options.scale))
     }
 
     /// Quantises representatives with these steps, and weights as in the options.

@@ -1,7 +1,5 @@
 //! Decoding of a coded segment, and recoding it with fewer bits for a precision study.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use rayon::prelude::*;
 
 use super::coded::steps;
@@ -21,12 +19,12 @@ impl CodedSegment {
         next.collect()
     }
 
-    /// Decodes the transfer of all vertices; several threads call `into` with the index of each vertex within the
-    /// segment and its numbers.
-    pub fn decode(&self, into: impl Fn(usize, &[f64]) + Sync) {
+    /// Decodes the transfer of each vertex, and passes its index within the segment and its numbers to `of`, in
+    /// several threads.
+    pub fn decode<T: Send>(&self, of: impl Fn(usize, &[f64]) -> T + Sync) -> Vec<T> {
         let (codes, columns) = (self.representatives.decode(), self.representatives.columns());
         let (firsts, begins) = (self.firsts(), self.weight_begins());
-        (0..self.vertices.len()).into_par_iter().for_each_init(
+        let vertices = (0..self.vertices.len()).into_par_iter().map_init(
             || vec![0.0; columns],
             |sum, at| {
                 let cluster = usize::from(self.cluster_of[at]);
@@ -38,9 +36,10 @@ impl CodedSegment {
                     let codes = &codes[row * columns..][..columns];
                     sum.iter_mut().zip(codes).for_each(|(sum, &code)| *sum += weight * f64::from(code));
                 }
-                into(at, sum);
+                of(at, sum)
             },
         );
+        vertices.collect()
     }
 
     /// Squared differences from the original transfer, vertex by vertex. Panics if the signal has another number of
@@ -48,13 +47,10 @@ impl CodedSegment {
     pub fn squared_errors(&self, signal: &Signal) -> Vec<f64> {
         let shape = (self.vertices.len(), self.representatives.columns());
         assert_eq!((signal.points(), signal.dimension()), shape, "the signal's shape");
-        let errors: Vec<AtomicU64> = (0..signal.points()).map(|_| AtomicU64::new(0)).collect();
         self.decode(|at, decoded| {
             let differences = decoded.iter().zip(signal.point(at)).map(|(a, &b)| a - f64::from(b));
-            let square: f64 = differences.map(|difference| difference * difference).sum();
-            errors[at].store(square.to_bits(), Ordering::Relaxed);
-        });
-        errors.into_iter().map(|bits| f64::from_bits(bits.into_inner())).collect()
+            differences.map(|difference| difference * difference).sum()
+        })
     }
 }
 

@@ -17,12 +17,8 @@ pub struct SparseRows {
     values: Vec<i16>,
 }
 
-/// A column of a block.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::all_frequency) struct SparseColumn<'a> {
-    pub(in crate::all_frequency) rows: &'a [u8],
-    pub(in crate::all_frequency) values: &'a [i16],
-}
+/// A column of a block: the rows of its non-zero numbers, and the numbers.
+pub(in crate::all_frequency) type SparseColumn<'a> = (&'a [u8], &'a [i16]);
 
 impl SparseRows {
     /// Encodes rows of `columns` numbers each, concatenated. Panics if `columns` is 0, or the last row is incomplete.
@@ -64,9 +60,8 @@ impl SparseRows {
         let sparse = Self { rows, columns, counts, row_in_block, values };
         let fits = sparse.blocks().enumerate().all(|(block, mut columns)| {
             let height = BLOCK_ROWS.min(rows - block * BLOCK_ROWS);
-            columns.all(|column| {
-                column.rows.is_sorted_by(|a, b| a < b)
-                    && column.rows.last().is_none_or(|&last| usize::from(last) < height)
+            columns.all(|(rows, _)| {
+                rows.is_sorted_by(|a, b| a < b) && rows.last().is_none_or(|&last| usize::from(last) < height)
             })
         });
         fits.then_some(sparse)
@@ -81,8 +76,8 @@ impl SparseRows {
     pub fn decode(&self) -> Vec<i16> {
         let mut values = vec![0; self.rows * self.columns];
         for (block, rows) in self.blocks().zip(values.chunks_mut(BLOCK_ROWS * self.columns)) {
-            for (column, numbers) in block.enumerate() {
-                for (&row, &value) in numbers.rows.iter().zip(numbers.values) {
+            for (column, (of_rows, numbers)) in block.enumerate() {
+                for (&row, &value) in of_rows.iter().zip(numbers) {
                     rows[usize::from(row) * self.columns + column] = value;
                 }
             }
@@ -99,7 +94,7 @@ impl SparseRows {
             counts.iter().map(move |&count| {
                 let range = at..at + usize::from(count);
                 at = range.end;
-                SparseColumn { rows: &self.row_in_block[range.clone()], values: &self.values[range] }
+                (&self.row_in_block[range.clone()], &self.values[range])
             })
         })
     }
@@ -122,10 +117,5 @@ impl SparseRows {
     /// Number of non-zero numbers.
     pub fn nonzeros(&self) -> usize {
         self.values.len()
-    }
-
-    /// Size in bytes: 3 per non-zero number, and 2 for the count of each column of each block.
-    pub fn bytes(&self) -> usize {
-        3 * self.nonzeros() + 2 * self.counts.len()
     }
 }

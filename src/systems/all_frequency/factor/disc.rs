@@ -122,14 +122,6 @@ impl HemisphereSamples {
         }))
     }
 
-    /// Errors of approximate values for the same pairs.
-    pub(super) fn errors_of(&self, values: &Matrix) -> ProductErrors {
-        ProductErrors::over(self.counts(), |at, f, found| {
-            f.copy_from_slice(self.values.row(at));
-            found.copy_from_slice(values.row(at));
-        })
-    }
-
     fn counts(&self) -> [usize; 2] {
         [self.values.row_count(), self.values.column_count()]
     }
@@ -197,40 +189,28 @@ fn inside(map: ParabolicMap) -> Vec<usize> {
 /// integrals of f times the harmonics, with f = 0 below the horizon: sums over these samples, weighted by solid angles.
 /// Fails with [`InputError`] if a matrix is too large. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
 pub fn harmonic_errors(samples: &HemisphereSamples, order: usize) -> Result<ProductErrors, InputError> {
-    let [view, light] = [0, 1].map(|side| Expansion::new(samples, side, order));
-    Ok(samples.errors_of(&view?.rows(&light?.columns(&samples.values)?)?))
+    let expanded = || {
+        let [[view, of_view], [light, of_light]] = [functions(samples, 0, order)?, functions(samples, 1, order)?];
+        let columns = samples.values.product(&of_light)?.product(&light.transposed())?;
+        view.product(&of_view.transposed().product(&columns)?)
+    };
+    let values = expanded().map_err(of_svd)?;
+    Ok(ProductErrors::over(samples.counts(), |at, f, found| {
+        f.copy_from_slice(samples.values.row(at));
+        found.copy_from_slice(values.row(at));
+    }))
 }
 
-/// Converts values at texels to coefficients, and back.
-struct Expansion {
-    /// Maps values at texels to coefficients: one row per function.
-    analysis: Matrix,
-    synthesis: Matrix,
-}
-
-impl Expansion {
-    fn new(samples: &HemisphereSamples, side: usize, order: usize) -> Result<Self, InputError> {
-        let (directions, angles) = (&samples.directions[side], &samples.solid_angles[side]);
-        let mut y = Matrix::zeros([directions.len(), function_count(order)]).map_err(of_svd)?;
-        for (row, &direction) in directions.iter().enumerate() {
-            harmonics(order, direction, y.row_mut(row));
-        }
-        let synthesis = y.transposed();
-        for (row, &angle) in angles.iter().enumerate() {
-            y.row_mut(row).iter_mut().for_each(|value| *value *= angle);
-        }
-        Ok(Self { analysis: y.transposed(), synthesis })
+/// The harmonics at the directions of a side, one row each, and the same times the solid angles.
+fn functions(samples: &HemisphereSamples, side: usize, order: usize) -> Result<[Matrix; 2], InputError> {
+    let (directions, angles) = (&samples.directions[side], &samples.solid_angles[side]);
+    let mut y = Matrix::zeros([directions.len(), function_count(order)])?;
+    for (row, &direction) in directions.iter().enumerate() {
+        harmonics(order, direction, y.row_mut(row));
     }
-
-    /// Expands each row of a matrix.
-    fn columns(&self, values: &Matrix) -> Result<Matrix, InputError> {
-        let analysed = values.product(&self.analysis.transposed());
-        analysed.and_then(|analysed| analysed.product(&self.synthesis)).map_err(of_svd)
+    let mut weighted = y.clone();
+    for (row, &angle) in angles.iter().enumerate() {
+        weighted.row_mut(row).iter_mut().for_each(|value| *value *= angle);
     }
-
-    /// Expands each column of a matrix.
-    fn rows(&self, values: &Matrix) -> Result<Matrix, InputError> {
-        let analysed = self.analysis.product(values);
-        analysed.and_then(|analysed| self.synthesis.transposed().product(&analysed)).map_err(of_svd)
-    }
+    Ok([y, weighted])
 }

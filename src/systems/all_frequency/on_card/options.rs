@@ -5,7 +5,7 @@ use refsim::isa::Version;
 use refsim::texture::{ChannelClass, TexelFormat};
 
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
-use crate::card::{CardError, require_versions};
+use crate::card::{CardError, require_versions, signed_format};
 
 /// The place of step 4, G(v) . T_p.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,6 +87,12 @@ impl Default for ProductOptions {
 }
 
 impl ProductOptions {
+    /// The default options, with maps in signed 16 bits if a device has them, otherwise in 8 bits.
+    pub fn of(profile: &Profile) -> Self {
+        let map_format = signed_format(profile, &[TexelFormat::Rgba16Snorm, TexelFormat::Rg16Snorm]);
+        Self { map_format, ..Self::default() }
+    }
+
     pub(super) fn terms_per_texel(&self) -> usize {
         usize::from(self.map_format.record().channel_count)
     }

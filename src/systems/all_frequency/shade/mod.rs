@@ -4,7 +4,7 @@
 //! - [`Shader`]: coded transfer laid out for rendering;
 //! - [`TransferredRadiance`]: T_p of every vertex, equation 13;
 //! - [`exit_radiance`]: G(v) . T_p, equation 7;
-//! - [`plain`]: T_p from uncoded transfer, by plain loops in f64.
+//! - [`plain`]: T_p by plain loops in f64.
 
 pub mod plain;
 mod shader;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
 use super::{Multiplies, TransferredRadiance, check_light};
-use crate::all_frequency::code::{BLOCK_ROWS, CodedSegment, CodedTransfer, SparseColumn};
+use crate::all_frequency::code::{BLOCK_ROWS, CodedTransfer, SparseColumn, SparseRows};
 use crate::error::InputError;
 
 /// Numbers processed together by vector instructions.
@@ -32,17 +32,9 @@ pub struct Shader {
 #[derive(Clone, Debug)]
 struct ShaderSegment {
     segment: usize,
-    blocks: Vec<Block>,
+    representatives: SparseRows,
     /// For each representative, the product of its step and its weights' step.
     steps: Vec<f32>,
-}
-
-/// The non-zero numbers of up to 256 representatives: the count of each column, and the rows and values.
-#[derive(Clone, Debug)]
-struct Block {
-    counts: Vec<u16>,
-    rows: Vec<u8>,
-    values: Vec<i16>,
 }
 
 /// The part of a vertex that belongs to one segment.
@@ -78,7 +70,11 @@ impl Shader {
             *end += entries.len() as u32;
             Some(*end)
         }));
-        let segments = transfer.segments.par_iter().map(ShaderSegment::new);
+        let segments = transfer.segments.iter().map(|part| ShaderSegment {
+            segment: part.segment,
+            representatives: part.representatives.clone(),
+            steps: part.representative_steps.iter().zip(&part.weight_steps).map(|(a, b)| a * b).collect(),
+        });
         Self {
             rows: transfer.rows,
             coefficients: transfer.coefficients,
@@ -110,7 +106,7 @@ impl Shader {
         let (mut tasks, mut rest) = (Vec::new(), &mut products[..]);
         for part in &self.segments {
             let light = &light[part.segment * self.coefficients..][..self.coefficients];
-            for (block, steps) in part.blocks.iter().zip(part.steps.chunks(BLOCK_ROWS)) {
+            for (block, steps) in part.representatives.blocks().zip(part.steps.chunks(BLOCK_ROWS)) {
                 let (into, others) = rest.split_at_mut(steps.len() * stride);
                 rest = others;
                 tasks.push((block, steps, light, into));
@@ -120,7 +116,7 @@ impl Shader {
         tasks.into_par_iter().for_each(|(block, steps, light, into)| {
             level.run(
                 #[inline(always)]
-                || block.times(light, stride, steps, into),
+                || times(block, light, stride, steps, into),
             );
         });
         Ok(products)
@@ -156,64 +152,41 @@ impl Shader {
             let at = segment * self.coefficients + column % self.coefficients;
             light.get(at).is_some_and(|rgb| *rgb != [0.0; 3])
         };
-        let of_block = |segment: usize, block: &Block| -> u64 {
-            let columns = (0..self.rows * self.coefficients).filter(|&column| lit(segment, column));
-            columns.map(|column| u64::from(block.counts[column])).sum()
+        let of_segment = |part: &ShaderSegment| -> u64 {
+            let columns = part.representatives.blocks().flat_map(Iterator::enumerate);
+            columns.filter(|&(at, _)| lit(part.segment, at)).map(|(_, (rows, _))| rows.len() as u64).sum()
         };
-        let of_segment = |part: &ShaderSegment| part.blocks.iter().map(|b| of_block(part.segment, b)).sum::<u64>();
         Multiplies {
             per_cluster: 3 * self.segments.iter().map(of_segment).sum::<u64>(),
             per_vertex: 3 * (self.rows * self.weights.len()) as u64,
         }
     }
-
-    /// Bytes of representatives and weights in memory.
-    pub fn bytes(&self) -> usize {
-        let of_block = |block: &Block| 2 * block.counts.len() + block.rows.len() + 2 * block.values.len();
-        self.segments.iter().flat_map(|part| &part.blocks).map(of_block).sum::<usize>() + 2 * self.weights.len()
-    }
 }
 
-impl ShaderSegment {
-    fn new(part: &CodedSegment) -> Self {
-        let steps = part.representative_steps.iter().zip(&part.weight_steps).map(|(a, b)| a * b).collect();
-        Self { segment: part.segment, blocks: part.representatives.blocks().map(Block::new).collect(), steps }
+/// Adds the products of a block's rows with light to `into`, `stride` numbers each. Columns with black light are
+/// skipped.
+#[inline(always)]
+fn times<'a>(
+    block: impl Iterator<Item = SparseColumn<'a>>,
+    light: &[[f32; 3]],
+    stride: usize,
+    steps: &[f32],
+    into: &mut [f32],
+) {
+    for (column, (rows, values)) in block.enumerate() {
+        let [r, g, b] = light[column % light.len()];
+        if [r, g, b] == [0.0; 3] {
+            continue;
+        }
+        // The fourth number is 0, so it adds 0 to the first number of the next row.
+        let (light, at) = ([r, g, b, 0.0], 3 * (column / light.len()));
+        for (&row, &value) in rows.iter().zip(values) {
+            let into = &mut into[usize::from(row) * stride + at..][..4];
+            (0..4).for_each(|c| into[c] += f32::from(value) * light[c]);
+        }
     }
-}
-
-impl Block {
-    fn new<'a>(columns: impl Iterator<Item = SparseColumn<'a>>) -> Self {
-        let (mut counts, mut rows, mut values) = (Vec::new(), Vec::new(), Vec::new());
-        for column in columns {
-            counts.push(column.rows.len() as u16);
-            rows.extend_from_slice(column.rows);
-            values.extend_from_slice(column.values);
-        }
-        Self { counts, rows, values }
-    }
-
-    /// Adds the products of the rows with light to `into`, `stride` numbers each. Columns with black light are skipped.
-    #[inline(always)]
-    fn times(&self, light: &[[f32; 3]], stride: usize, steps: &[f32], into: &mut [f32]) {
-        let Self { counts, rows, values } = self;
-        let mut begin = 0;
-        for (column, &count) in counts.iter().enumerate() {
-            let range = begin..begin + usize::from(count);
-            begin = range.end;
-            let [r, g, b] = light[column % light.len()];
-            if [r, g, b] == [0.0; 3] {
-                continue;
-            }
-            // The fourth number is 0, so it adds 0 to the first number of the next row.
-            let (light, at) = ([r, g, b, 0.0], 3 * (column / light.len()));
-            for (&row, &value) in rows[range.clone()].iter().zip(&values[range]) {
-                let into = &mut into[usize::from(row) * stride + at..][..4];
-                (0..4).for_each(|c| into[c] += f32::from(value) * light[c]);
-            }
-        }
-        for (row, step) in into.chunks_exact_mut(stride).zip(steps) {
-            row.iter_mut().for_each(|value| *value *= step);
-        }
+    for (row, step) in into.chunks_exact_mut(stride).zip(steps) {
+        row.iter_mut().for_each(|value| *value *= step);
     }
 }
 

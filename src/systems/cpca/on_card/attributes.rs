@@ -62,7 +62,22 @@ pub(super) fn chunks(
         let distinct = [Some(a), (b != a).then_some(b), (c != a && c != b).then_some(c)];
         distinct.into_iter().flatten().for_each(|chunk| chunks[chunk as usize].indices.extend(corners));
     }
-    let source = VertexSourceData { transfer, weights, addresses: &addresses, kernel, positions };
+    // Outside the supercluster, alpha and weights are 0.
+    let attributes = |vertex: usize, inside: bool| {
+        let clustering = transfer.clustering;
+        let cluster = clustering.of_point()[vertex] as usize;
+        let address = if inside { addresses[cluster] } else { 0 };
+        let alpha = f64::from(u8::from(inside));
+        let mut all = vec![positions[vertex], attribute([address as f64, alpha, 0.0], 0.0)];
+        let own = if inside { clustering.weights(vertex) } else { &[] };
+        let held = |at: usize| own.get(at).map_or(0.0, |&weight| weights.attribute(cluster, at, weight));
+        let weight = |at: usize| held(at).to_bits();
+        all.extend((0..kernel.weight_registers()).map(|register| [0, 1, 2, 3].map(|at| weight(4 * register + at))));
+        if transfer.is_glossy() {
+            all.extend(transfer.vertices.frames()[vertex].attributes());
+        }
+        all
+    };
     let mut local = vec![u32::MAX; positions.len()];
     for (number, chunk) in (0..).zip(&mut chunks) {
         let globals = take(&mut chunk.indices);
@@ -77,38 +92,8 @@ pub(super) fn chunks(
         vertices.iter().for_each(|&vertex| local[vertex as usize] = u32::MAX);
         chunk.attributes = by_register(kernel.attributes(), vertices.len(), |at| {
             let vertex = vertices[at];
-            source.attributes(vertex as usize, chunk_of(vertex) == number)
+            attributes(vertex as usize, chunk_of(vertex) == number)
         });
     }
     chunks
-}
-
-struct VertexSourceData<'a> {
-    transfer: &'a CompressedTransfer<'a>,
-    weights: &'a CardWeights,
-    /// Index of each cluster's first constant, relative to the first constant with products.
-    addresses: &'a [usize],
-    kernel: &'a VertexKernel,
-    positions: &'a [[u32; 4]],
-}
-
-impl VertexSourceData<'_> {
-    /// A vertex's attributes by register. Outside the supercluster, alpha and weights are 0.
-    fn attributes(&self, vertex: usize, inside: bool) -> Vec<[u32; 4]> {
-        let clustering = self.transfer.clustering;
-        let cluster = clustering.of_point()[vertex] as usize;
-        let address = if inside { self.addresses[cluster] } else { 0 };
-        let alpha = f64::from(u8::from(inside));
-        let mut all = vec![self.positions[vertex], attribute([address as f64, alpha, 0.0], 0.0)];
-        let weights = if inside { clustering.weights(vertex) } else { &[] };
-        let held = |at: usize| weights.get(at).map_or(0.0, |&weight| self.weights.attribute(cluster, at, weight));
-        let weight = |at: usize| held(at).to_bits();
-        all.extend(
-            (0..self.kernel.weight_registers()).map(|register| [0, 1, 2, 3].map(|at| weight(4 * register + at))),
-        );
-        if self.transfer.is_glossy() {
-            all.extend(self.transfer.vertices.frames()[vertex].attributes());
-        }
-        all
-    }
 }

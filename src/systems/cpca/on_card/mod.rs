@@ -30,7 +30,7 @@ use crate::cpca::coherence::Superclusters;
 use crate::sphere::{HarmonicLight, ParabolicMap};
 use attributes::{Chunk, chunks};
 use model::TransferSize;
-use programs::{ShadingPrograms, exit_maps, kernel, map_scale, registers};
+use programs::{ShadingPrograms, exit_maps, kernel, registers};
 
 const CHANNELS: [WriteMask; 3] = [WriteMask(1), WriteMask(2), WriteMask(4)];
 
@@ -73,15 +73,14 @@ impl<'a> PrtCard<'a> {
         let programs = ShadingPrograms::new(&profile, kernel)?;
         let mut machine = executor.into().machine(profile)?;
         let map = ParabolicMap::new(options.map_side);
-        let (mut maps, mut scale) = (Vec::new(), 1.0);
-        if transfer.is_glossy() {
-            scale = map_scale(transfer.basis, map, options.map_format);
-            maps = exit_maps(&mut machine, transfer.basis, map, options.map_format, scale)?;
-        }
+        let (maps, map_scale) = match transfer.is_glossy() {
+            true => exit_maps(&mut machine, transfer.basis, map, options.map_format)?,
+            false => (Vec::new(), 1.0),
+        };
         let display = MeshDisplay::new(machine, transfer.vertices.positions().iter().copied());
         let weights = CardWeights::new(transfer.clustering, options.weights);
         let chunks = chunks(&transfer, &weights, &superclusters, &programs.kernel, display.positions());
-        let (indices, map_scale) = (triangles.as_flattened().to_vec(), scale);
+        let indices = triangles.as_flattened().to_vec();
         Ok(Self { display, transfer, size, weights, indices, superclusters, chunks, programs, maps, map_scale })
     }
 
@@ -104,7 +103,8 @@ impl<'a> PrtCard<'a> {
     /// [`frame_time`](crate::card::frame_time::frame_time).
     pub fn logged_view(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<(Texels, Vec<Event>), CardError> {
         let (texels, mut log) = self.show(light, view, true)?;
-        log.insert(0, host_work(HostOperation::MultiplyAdd, self.size.host_multiply_adds() as u64));
+        let work = self.size.multiply_adds(self.transfer.representatives());
+        log.insert(0, host_work(HostOperation::MultiplyAdd, work as u64));
         Ok((texels, log))
     }
 

@@ -21,17 +21,12 @@ pub struct TransferSize {
 const CHANNELS: usize = 3;
 
 impl TransferSize {
-    /// Number of values before compression: m_p N_r N_i.
-    pub fn raw_numbers(&self) -> usize {
-        self.vertices * self.rows * self.columns
-    }
-
     /// Number of values after compression (section 4.1): m_p n' + m_c (n' + 1) N_r N_i.
     pub fn stored_numbers(&self) -> usize {
         self.vertices * self.vectors + self.representatives() * self.rows * self.columns
     }
 
-    /// Number of means and vectors of all clusters: m_c (n' + 1).
+    /// Number of means and vectors of all clusters: m_c (n' + 1), if no cluster has a lower rank.
     pub fn representatives(&self) -> usize {
         self.clusters * (self.vectors + 1)
     }
@@ -46,29 +41,20 @@ impl TransferSize {
         registers / self.registers_per_cluster()
     }
 
-    /// The least number of draws of chunks per channel with `registers`; `None` if no cluster fits.
-    pub fn batches(&self, registers: usize) -> Option<usize> {
-        Some(self.clusters.div_ceil(Some(self.clusters_per_batch(registers)).filter(|&fit| fit > 0)?))
-    }
-
     /// Passes over each chunk: one per channel for glossy transfer.
     pub fn passes(&self) -> usize {
         if self.rows == 1 { 1 } else { CHANNELS }
     }
 
-    /// Number of constant registers uploaded for a frame.
-    pub fn uploaded_registers(&self) -> usize {
-        self.passes() * self.clusters * self.registers_per_cluster()
+    /// Number of constant registers uploaded for a frame with this many means and vectors.
+    pub fn uploaded_registers(&self, representatives: usize) -> usize {
+        self.passes() * representatives * self.registers(0).per_vector
     }
 
-    /// Multiplications and additions of the host for a frame: 3 m_c (n' + 1) N_r N_i.
-    pub fn host_multiply_adds(&self) -> usize {
-        CHANNELS * self.representatives() * self.rows * self.columns
-    }
-
-    /// Multiplications and additions of the host for a frame without compression: 3 m_p N_r N_i.
-    pub fn uncompressed_multiply_adds(&self) -> usize {
-        CHANNELS * self.raw_numbers()
+    /// Multiplications and additions of the host for the products of this many matrices with a light of three channels:
+    /// m_c (n' + 1) matrices with compression, m_p without.
+    pub fn multiply_adds(&self, matrices: usize) -> usize {
+        CHANNELS * matrices * self.rows * self.columns
     }
 
     fn registers(&self, limit: usize) -> ConstantRegisters {

@@ -17,7 +17,7 @@ const HEAD_SECONDS: u64 = 10;
 
 /// The host of section 7, at the speed that gives the uncompressed head 2.9 frames per second.
 pub fn host_of_section_7() -> Result<HostModel, HostError> {
-    let work = HEAD_FRAMES * HEAD.uncompressed_multiply_adds() as u64;
+    let work = HEAD_FRAMES * HEAD.multiply_adds(HEAD.vertices) as u64;
     HostModel::calibrate(&HostCounts::default().with(HostOperation::MultiplyAdd, work), HEAD_SECONDS, 1)
 }
 
@@ -47,11 +47,12 @@ impl FrameCounts {
         let registers = self.size.rows.div_ceil(4);
         let shading = if self.size.rows == 1 { VertexShading::Diffuse } else { VertexShading::Glossy { registers } };
         let kernel = VertexKernel { shading, vectors: self.size.vectors, version: Version::Vs2_0 };
-        let work = host_work(HostOperation::MultiplyAdd, self.size.host_multiply_adds() as u64);
+        let representatives = self.size.representatives();
+        let work = host_work(HostOperation::MultiplyAdd, self.size.multiply_adds(representatives) as u64);
         let mut frame = UnseenFrame::new(vec![work], self.run_per_triangle);
         frame.draw(self.triangles, POSITION_SLOTS, 1);
         let (groups, passes) = (self.groups.max(1), self.size.passes() as u64);
-        let constants = (self.size.uploaded_registers() as u64 / (groups * passes)) as u32;
+        let constants = (self.size.uploaded_registers(representatives) as u64 / (groups * passes)) as u32;
         for group in 0..groups {
             // Differences of rounded multiples sum exactly to all drawn triangles.
             let triangles = self.drawn * (group + 1) / groups - self.drawn * group / groups;

@@ -30,6 +30,11 @@ impl CompressedTransfer<'_> {
         matches!(self.basis, ExitBasis::Harmonics(_))
     }
 
+    /// Number of means and vectors of all clusters.
+    pub fn representatives(&self) -> usize {
+        self.clustering.subspaces().iter().map(|subspace| subspace.len() + 1).sum()
+    }
+
     /// The sizes of the transfer. Fails with [`CardError`] if its parts are inconsistent.
     pub fn size(&self) -> Result<TransferSize, CardError> {
         let (channels, rows, found) = (self.channels, self.basis.len(), self.clustering.dimension());

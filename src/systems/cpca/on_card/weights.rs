@@ -1,9 +1,10 @@
 //! Options of drawing compressed transfer, and the format of weights in vertices. The paper does not describe the
 //! format; fewer bits make vertices smaller.
 
+use refsim::device::Profile;
 use refsim::texture::TexelFormat;
 
-use crate::card::{CardError, through_half};
+use crate::card::{CardError, signed_format, through_half};
 use crate::clustering::Clustering;
 
 /// The format of a weight in a vertex.
@@ -103,6 +104,11 @@ impl Default for PrtCardOptions {
 }
 
 impl PrtCardOptions {
+    /// The default options, with maps in signed 16 bits if a device has them, otherwise in 8 bits.
+    pub fn of(profile: &Profile) -> Self {
+        Self { map_format: signed_format(profile, &[TexelFormat::Rgba16Snorm]), ..Self::default() }
+    }
+
     pub(super) fn check(&self) -> Result<(), CardError> {
         if (1..=4096).contains(&self.map_side) {
             return Ok(());

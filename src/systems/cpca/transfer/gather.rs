@@ -70,7 +70,7 @@ impl<'a> TransferGather<'a> {
         &self.materials[(self.vertices.materials()[vertex] as usize).min(self.materials.len() - 1)]
     }
 
-    /// Direct light with shadows at the vertices whose rays were traced.
+    /// Direct light with shadows.
     pub(super) fn direct(&self) -> Vec<f32> {
         self.each(|vertex, into| {
             let local = self.local_direct(vertex);
@@ -138,12 +138,11 @@ impl<'a> TransferGather<'a> {
         }
     }
 
-    /// Computes the matrix of each vertex whose rays were traced, independently of the others.
+    /// Computes the matrix of each vertex, independently of the others.
     fn each(&self, compute: impl Fn(usize, &mut [f32]) + Sync) -> Vec<f32> {
-        let range = self.rays.range();
-        let mut values = vec![0.0; range.len() * self.size()];
+        let mut values = vec![0.0; self.vertices.len() * self.size()];
         let of_vertices = values.par_chunks_exact_mut(self.size()).enumerate();
-        of_vertices.for_each(|(at, into)| compute(range.start + at, into));
+        of_vertices.for_each(|(vertex, into)| compute(vertex, into));
         values
     }
 }

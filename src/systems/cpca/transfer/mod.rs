@@ -10,7 +10,7 @@ mod response;
 mod scattering;
 mod whole;
 
-pub use rays::{TracedRays, TransferCounts};
+pub use rays::{TracedRays, TransferCounts, ray_origins};
 pub use response::{Incident, Response};
 pub use scattering::ScatteringOptions;
 pub use whole::Transfer;

@@ -1,7 +1,5 @@
 //! The rays of all vertices: blocked or not, and their hits.
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 
 use crate::error::InputError;
@@ -39,8 +37,7 @@ pub struct TransferCounts {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TracedRays {
     rule: DirectionRule,
-    /// The vertices whose rays were traced.
-    range: Range<usize>,
+    vertices: usize,
     /// Number of 64-bit words per vertex.
     words: usize,
     blocked: Vec<u64>,
@@ -61,31 +58,19 @@ impl TracedRays {
         caster: &mut dyn Caster,
         keep_hits: bool,
     ) -> Result<Self, InputError> {
-        Self::trace_range(vertices, 0..vertices.len(), rule, caster, keep_hits)
-    }
-
-    /// Like [`Self::trace`], for a range of vertices, with the same results. Fails as [`Self::trace`] does. Panics if a
-    /// vertex of the range does not exist.
-    pub fn trace_range(
-        vertices: &Vertices,
-        range: Range<usize>,
-        rule: DirectionRule,
-        caster: &mut dyn Caster,
-        keep_hits: bool,
-    ) -> Result<Self, InputError> {
-        assert!(range.end <= vertices.len(), "vertices of the mesh");
         let words = rule.len().div_ceil(64);
         let occluders = Occluders::new(vertices);
         let origins = origins(vertices, &occluders);
-        let unclear = range.clone().filter(|&vertex| !origins[vertex].is_clear);
+        let unclear = (0..vertices.len()).filter(|&vertex| !origins[vertex].is_clear);
         let counts = TransferCounts {
-            rays: (range.len() * rule.len()) as u64,
+            rays: (vertices.len() * rule.len()) as u64,
             unclear: unclear.map(|vertex| vertex as u32).collect(),
             ..TransferCounts::default()
         };
         let shooter = Shooter::new(vertices, &rule, &origins, &occluders);
-        let blocked = vec![0; words * range.len()];
-        let mut traced = Self { rule, range, words, blocked, hits: Vec::new(), keeps_hits: keep_hits, counts };
+        let blocked = vec![0; words * vertices.len()];
+        let (hits, keeps_hits, vertices) = (Vec::new(), keep_hits, vertices.len());
+        let mut traced = Self { rule, vertices, words, blocked, hits, keeps_hits, counts };
         traced.shadows(&shooter, caster)?;
         traced.hits(&shooter, caster)?;
         Ok(traced)
@@ -94,11 +79,6 @@ impl TracedRays {
     /// The rule whose directions were traced.
     pub fn rule(&self) -> &DirectionRule {
         &self.rule
-    }
-
-    /// The vertices whose rays were traced.
-    pub fn range(&self) -> Range<usize> {
-        self.range.clone()
     }
 
     /// Numbers of rays, and vertices with defects.
@@ -114,7 +94,7 @@ impl TracedRays {
 
     /// The number of vertices.
     pub fn vertex_count(&self) -> usize {
-        self.range.len()
+        self.vertices
     }
 
     /// True if [`Self::trace`] was called with `keep_hits`.
@@ -124,7 +104,7 @@ impl TracedRays {
 
     /// The hits of a vertex's rays on front faces.
     pub(crate) fn front_hits(&self, vertex: usize) -> &[FrontHit] {
-        self.hits.get(vertex - self.range.start).map_or(&[], Vec::as_slice)
+        self.hits.get(vertex).map_or(&[], Vec::as_slice)
     }
 
     /// The blocked directions of a vertex, in increasing order.
@@ -134,14 +114,13 @@ impl TracedRays {
 
     /// One bit per direction of a vertex, set if the direction is blocked.
     fn words(&self, vertex: usize) -> &[u64] {
-        let Self { range, words, blocked, .. } = self;
-        &blocked[(vertex - range.start) * words..(vertex - range.start + 1) * words]
+        &self.blocked[vertex * self.words..(vertex + 1) * self.words]
     }
 
     fn shadows(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), InputError> {
-        let Self { range, words, blocked, counts, .. } = self;
+        let Self { vertices, words, blocked, counts, .. } = self;
         let words = *words;
-        for (first, blocked) in range.clone().step_by(BLOCK).zip(blocked.chunks_mut(BLOCK * words)) {
+        for (first, blocked) in (0..*vertices).step_by(BLOCK).zip(blocked.chunks_mut(BLOCK * words)) {
             let asked: Vec<VertexRays> = blocked
                 .par_chunks_mut(words)
                 .enumerate()
@@ -160,8 +139,8 @@ impl TracedRays {
         counts.blocked = blocked.par_iter().map(|bits| u64::from(bits.count_ones())).sum();
         let all = self.rule.len() as u32;
         let of_vertex = blocked.chunks(words).map(|bits| bits.iter().map(|word| word.count_ones()).sum::<u32>());
-        let dark = range.clone().zip(of_vertex).filter(|&(_, blocked)| blocked == all);
-        counts.dark = dark.map(|(vertex, _)| vertex as u32).collect();
+        let dark = (0..).zip(of_vertex).filter(|&(_, blocked)| blocked == all);
+        counts.dark = dark.map(|(vertex, _)| vertex).collect();
         Ok(())
     }
 
@@ -169,7 +148,7 @@ impl TracedRays {
     /// buried ones.
     fn hits(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), InputError> {
         let wanted: Vec<u32> = match self.keeps_hits() {
-            true => self.range().map(|vertex| vertex as u32).collect(),
+            true => (0..self.vertices as u32).collect(),
             false => self.counts().dark.clone(),
         };
         for block in wanted.chunks(BLOCK) {
@@ -199,4 +178,10 @@ impl TracedRays {
         }
         Ok(())
     }
+}
+
+/// The origin of each vertex's rays, for tests.
+#[doc(hidden)]
+pub fn ray_origins(vertices: &Vertices) -> Vec<[f32; 3]> {
+    origins(vertices, &Occluders::new(vertices)).into_iter().map(|origin| origin.at).collect()
 }

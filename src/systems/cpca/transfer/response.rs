@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::error::InputError;
-use crate::linalg::{Matrix, dot};
-use crate::sphere::{DirectionRule, function_count, harmonics};
+use crate::linalg::dot;
+use crate::sphere::DirectionRule;
 use crate::transfer::brdf::{Brdf, ExitBasis, Projector, exit_per_direction, integrals};
 use crate::transfer::error::require;
 
@@ -76,14 +76,6 @@ impl Response {
         Ok(Self { columns: projector.coefficients(columns), basis: exit.clone(), directions: rule.len() })
     }
 
-    /// The response without a material: incident radiance itself, projected onto a basis by integrals over the
-    /// hemisphere, or if `inverse` by least squares.
-    pub(super) fn incident(basis: &ExitBasis, inverse: bool, rule: &DirectionRule) -> Self {
-        let projector = Projector::new(basis, inverse);
-        let columns = projector.coefficients(projector.functions(rule.directions()));
-        Self { columns, basis: basis.clone(), directions: rule.len() }
-    }
-
     /// The basis of exit radiance.
     pub fn basis(&self) -> &ExitBasis {
         &self.basis
@@ -97,21 +89,5 @@ impl Response {
     /// The column of each direction.
     pub(crate) fn columns(&self) -> impl Iterator<Item = &[f64]> {
         self.columns.chunks_exact(self.basis.len())
-    }
-
-    /// The matrix of a vertex that sees the whole hemisphere, for light of `light_order` in local coordinates. Never
-    /// fails, because there are at most 100 functions. Panics if the order is not 1 to 10, or rule and response differ
-    /// in their number of directions.
-    pub fn unoccluded(&self, light_order: usize, rule: &DirectionRule) -> Result<Matrix, InputError> {
-        assert_eq!(rule.len(), self.directions, "the response's rule");
-        let columns = function_count(light_order);
-        let (mut sums, mut y) = (Matrix::zeros([self.basis.len(), columns])?, vec![0.0; columns]);
-        for ((&s, weight), exits) in rule.directions().iter().zip(rule.weights()).zip(self.columns()) {
-            harmonics(light_order, s, &mut y);
-            for (row, exit) in exits.iter().enumerate() {
-                sums.row_mut(row).iter_mut().zip(&y).for_each(|(sum, y)| *sum += weight * exit * y);
-            }
-        }
-        Ok(sums)
     }
 }

@@ -66,31 +66,6 @@ impl Transfer {
         Ok(Self { basis, columns, values: total, bounces: added })
     }
 
-    /// The transferred incident radiance, R_p T_p, of all vertices in local coordinates: projected onto `basis` by
-    /// integrals over the hemisphere (zero hemisphere), or if `inverse` by least squares. Light from other surfaces is
-    /// their exit radiance `exit`; `None` means no light from them.
-    pub fn incident(
-        vertices: &Vertices,
-        rays: &TracedRays,
-        (basis, inverse): (&ExitBasis, bool),
-        light_order: usize,
-        exit: Option<&Self>,
-    ) -> Result<Self, InputError> {
-        let responses = [Response::incident(basis, inverse, rays.rule())];
-        check(rays, &responses, light_order)?;
-        check_bounces(vertices, rays, u32::from(exit.is_some()))?;
-        let gather = TransferGather::new(vertices, rays, &responses, light_order);
-        let mut values = gather.direct();
-        let columns = function_count(light_order);
-        if let Some(exit) = exit {
-            differ("columns", [columns, exit.columns])?;
-            differ("vertices", [vertices.len(), exit.vertex_count()])?;
-            let more = gather.bounce(&exit.values, &exit.basis);
-            values.iter_mut().zip(more).for_each(|(value, more)| *value += more);
-        }
-        Ok(Self { basis: basis.clone(), columns, values, bounces: Vec::new() })
-    }
-
     /// The number of vertices.
     pub fn vertex_count(&self) -> usize {
         self.values.len() / (self.row_count() * self.columns)

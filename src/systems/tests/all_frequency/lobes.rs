@@ -40,6 +40,7 @@ fn each_form_has_its_factor() {
             close(head_on(fresnel, shadowing), 0.5 / (4.0 * PI * 0.16));
         }
     }
+    assert_eq!(Lobe::cook_torrance(0.4, 0.0).value(VIEW, LIGHT), 0.0, "a boundary without contrast");
     let Lobe { distribution: FacetDistribution::Schlick { roughness, isotropy, .. }, .. } =
         Lobe::schlick(0.2, 0.3, 0.8)
     else {

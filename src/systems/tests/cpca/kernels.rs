@@ -38,16 +38,3 @@ fn slots_are_counted_as_the_device_counts_them() {
         }
     }
 }
-
-/// Figure 10's pure principal components: 20 vectors of 24 functions exceed vs_1_1 in slots and in constants.
-#[test]
-fn twenty_vectors_need_vs_2_0() {
-    let shading = VertexShading::Glossy { registers: 6 };
-    let kernel = |version| VertexKernel { shading, vectors: 20, version };
-    kernel(Version::Vs2_0).checked(&device("r300")).unwrap_or_else(|e| panic!("{e}"));
-    let program = refsim::asm::assemble(&kernel(Version::Vs1_1).text()).expect("a program");
-    let report = refsim::check::check(program, &device("r300")).expect_err("refused");
-    let named = |what: &str| report.violations.iter().any(|violation| violation.message.contains(what));
-    assert!(named("138") && named("128"), "slots: {report:?}");
-    assert!(named("`c0` to `c95`"), "constants: {report:?}");
-}

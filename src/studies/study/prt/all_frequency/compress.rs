@@ -8,7 +8,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
-use crate::clustering::CpcaError;
+use crate::error::InputError;
 use crate::kept::KeptResults;
 use crate::study::{ProgressFn, StudyError};
 use crate::transfer::Vertices;
@@ -110,7 +110,7 @@ impl SegmentedCompression<'_> {
 }
 
 /// Error of options that conflict, or of principal components that cannot be found.
-fn of_segment(segment: usize, reason: &CpcaError) -> StudyError {
+fn of_segment(segment: usize, reason: &InputError) -> StudyError {
     let help = "see `crossbar all-frequency compress --help`";
     StudyError::new("crossbar::prt::cpca", format!("segment {segment}: {reason}")).with_help(help)
 }

@@ -48,19 +48,16 @@ pub struct LitPart {
     pub file: AllFrequencyFile,
 }
 
-/// Transferred radiance, from coded transfer or from raw matrices.
-pub(in crate::study::prt) enum Transferred {
-    Coded(TransferredRadiance),
-    Exact { rows: usize, values: Vec<[f64; 3]> },
+/// Transferred radiance: `rows` rows per vertex.
+pub(in crate::study::prt) struct Transferred {
+    rows: usize,
+    values: Vec<[f64; 3]>,
 }
 
 impl Transferred {
     /// Converts to single precision, the precision of a card's input.
     pub(in crate::study::prt) fn singles(self) -> TransferredRadiance {
-        match self {
-            Self::Coded(radiance) => radiance,
-            Self::Exact { rows, values } => singles(rows, values),
-        }
+        singles(self.rows, self.values)
     }
 }
 
@@ -92,10 +89,10 @@ impl LitPart {
 
     /// Transferred radiance by steps 2 and 3, or by raw matrices if transfer is not coded.
     pub(in crate::study::prt) fn transferred(&self, light: &HaarLight) -> Result<Transferred, StudyError> {
-        match &self.file.coded {
-            Some(coded) => Ok(Transferred::Coded(Shader::new(coded).transferred(&light.singles())?)),
-            None => Ok(self.exact(&self.file, light)?),
-        }
+        let Some(coded) = &self.file.coded else { return Ok(self.exact(&self.file, light)?) };
+        let radiance = Shader::new(coded).transferred(&light.singles())?;
+        let rows = (0..radiance.vertices()).flat_map(|vertex| radiance.of(vertex));
+        Ok(Transferred { rows: radiance.rows(), values: rows.map(|row| row.map(f64::from)).collect() })
     }
 
     /// Transferred radiance by the raw matrices of a file, M_p L, segment by segment.
@@ -106,7 +103,7 @@ impl LitPart {
     ) -> Result<Transferred, InputError> {
         let rows = file.reflectance.terms();
         let mut values = vec![[0.0; 3]; self.vertices.len() * rows];
-        let Some(maps) = &file.visibility else { return Ok(Transferred::Exact { rows, values }) };
+        let Some(maps) = &file.visibility else { return Ok(Transferred { rows, values }) };
         let hats = LinearBasis::new(file.hats);
         let transfer = transfer_of(&self.vertices, maps, &hats, &file.reflectance);
         for segment in transfer.segments() {
@@ -123,15 +120,12 @@ impl LitPart {
                 }
             }
         }
-        Ok(Transferred::Exact { rows, values })
+        Ok(Transferred { rows, values })
     }
 
     /// Exit radiance towards a camera (step 4).
     pub(super) fn radiance(&self, transferred: &Transferred, camera: &Camera) -> Vec<[f64; 3]> {
-        let of = |vertex: usize, row: usize| match transferred {
-            Transferred::Coded(radiance) => radiance.of(vertex)[row].map(f64::from),
-            Transferred::Exact { rows, values } => values[vertex * rows + row],
-        };
+        let of = |vertex: usize, row: usize| transferred.values[vertex * transferred.rows + row];
         let color = |vertex: usize| self.colors[self.vertices.materials()[vertex] as usize];
         exit_radiance(&self.vertices, &self.file.reflectance, &color, &of, wide(camera.eye()))
     }

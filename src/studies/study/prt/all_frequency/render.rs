@@ -5,6 +5,7 @@ use serde_json::json;
 use super::model::LitModel;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
+use crate::study::prt::lit_view::relative_rms;
 use crate::study::prt::render::cluster_picture;
 use crate::study::prt::{SeenSurface, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
@@ -73,15 +74,15 @@ impl LitModel {
         let (pictures, _, largest) =
             self.view.against_original(drawn, &picture, exposure, "coded minus uncompressed")?;
         let share = |a: &[[f64; 3]], b: &[[f64; 3]]| {
-            let apart: f64 = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum();
-            100.0 * (apart / b.iter().flatten().map(|value| value * value).sum::<f64>()).sqrt()
+            let differences = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| a - b);
+            relative_rms(differences, b.iter().flatten().copied())
         };
         let pixels = share(drawn, &picture);
         let of_pixels =
             "root mean square difference of the pixels, relative to the root mean square of the picture (%)";
         let table = Table::new("Coded against uncompressed", &["figure", "value"]).with([
-            [of_pixels.into(), Cell::measured(pixels)],
-            ["the same for vertices (%)".into(), Cell::measured(share(of_vertex, exact))],
+            [of_pixels.into(), pixels.map(Cell::measured).into()],
+            ["the same for vertices (%)".into(), share(of_vertex, exact).map(Cell::measured).into()],
             ["largest difference of a pixel (radiance)".into(), Cell::measured(largest)],
         ]);
         found.heading("Against uncompressed transfer");

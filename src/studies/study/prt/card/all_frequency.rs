@@ -99,7 +99,7 @@ fn conclude(drawing: &FactoredDrawing, found: &mut Findings) {
 /// Steps 2 and 3 in f64, one rounding to f32 each.
 fn in_double(coded: &CodedTransfer, light: &HaarLight) -> Result<TransferredRadiance, InputError> {
     let light: Vec<[f64; 3]> = light.singles().into_iter().map(|rgb| rgb.map(f64::from)).collect();
-    Ok(singles(coded.rows, plain::transferred_of_code(coded, &light)?))
+    Ok(singles(coded.rows, plain::transferred(coded, &light)?))
 }
 
 /// Codes of fewer bits than a file's.

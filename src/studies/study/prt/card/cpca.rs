@@ -52,8 +52,6 @@ pub struct OnCard {
     pub light: HarmonicLight,
     /// The card that draws.
     pub card: CardSetting,
-    /// Drawing options: superclusters, maps, format of weights.
-    pub options: PrtCardOptions,
 }
 
 impl Study for OnCard {
@@ -75,7 +73,7 @@ impl Study for OnCard {
         let draw = |profile: &Profile, options: &PrtCardOptions, format| {
             self.draw(profile, transfer, (options, format), host.exposure)
         };
-        let (drawn, pixels, log) = draw(&card.profile, &self.options, card.format)?;
+        let (drawn, pixels, log) = draw(&card.profile, &PrtCardOptions::of(&card.profile), card.format)?;
         let radiance = |direction| light.radiance(direction);
         let (mut found, _) = host.findings("Compressed transfer on a card", &pixels, card.is_clamped(), radiance)?;
         report_sizes(sizes(&drawn, &transfer), &mut found);
@@ -137,18 +135,19 @@ type DrawnTransfer<'a> = (PrtCard<'a>, Vec<[f64; 3]>, Vec<Event>);
 /// is drawn once per group of clusters that has one of its vertices.
 fn sizes(card: &PrtCard<'_>, transfer: &CompressedTransfer<'_>) -> impl Iterator<Item = (&'static str, Cell)> {
     let (size, groups, triangles) = (card.size(), card.superclusters(), transfer.vertices.triangles());
-    let drawn = groups.overdraw(transfer.clustering, triangles);
+    let (clustering, representatives) = (transfer.clustering, transfer.representatives());
+    let drawn = groups.overdraw(clustering, triangles);
     let rows = [
         ("vertices", size.vertices as u64),
         ("clusters", size.clusters as u64),
         ("vectors of a cluster", size.vectors as u64),
-        ("numbers uncompressed", size.raw_numbers() as u64),
-        ("numbers stored", size.stored_numbers() as u64),
+        ("numbers uncompressed", (clustering.points() * clustering.dimension()) as u64),
+        ("numbers stored", clustering.stored_numbers() as u64),
         ("constants of a cluster", size.registers_per_cluster() as u64),
         ("superclusters", groups.count() as u64),
         ("passes over each", size.passes() as u64),
-        ("constants sent for a frame", size.uploaded_registers() as u64),
-        ("host multiply-adds of a frame", size.host_multiply_adds() as u64),
+        ("constants sent for a frame", size.uploaded_registers(representatives) as u64),
+        ("host multiply-adds of a frame", size.multiply_adds(representatives) as u64),
         ("triangles", triangles.len() as u64),
         ("triangles drawn in a pass", drawn),
     ];

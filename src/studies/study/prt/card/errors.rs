@@ -99,9 +99,11 @@ pub fn variants_table(variants: &[PictureVariant]) -> Table {
         .with(variants.iter().map(row))
 }
 
-/// The name with the largest root mean square error, and this error.
+/// The name with the largest root mean square error, and this error; `None` if all errors are 0.
 fn worst<T>(of: impl Iterator<Item = (T, PixelErrors)>) -> Option<(T, String)> {
-    let worst = of.max_by(|(_, a), (_, b)| a.off_255ths[0].total_cmp(&b.off_255ths[0]));
+    let worst = of
+        .filter(|(_, errors)| errors.off_255ths[0] > 0.0)
+        .max_by(|(_, a), (_, b)| a.off_255ths[0].total_cmp(&b.off_255ths[0]));
     worst.map(|(name, errors)| (name, shown(errors.off_255ths[0], Quantity::Measured)))
 }
 

@@ -14,6 +14,7 @@ use crate::card::frame_time::{FrameTime, FrameTimeError, frame_time};
 use crate::error::InputError;
 use crate::picture::metrics::value_error;
 use crate::report::digits::{Quantity, shown};
+use crate::report::words::counted;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::study::StudyError;
 use crate::study::prt::{LitView, light_picture};
@@ -87,8 +88,11 @@ impl CardSetting {
         let rate = shown(time.per_second(), Quantity::Measured);
         let waits = time.bottleneck.map_or_else(String::new, |what| format!("; draws wait for {what}"));
         found.conclusion(format!(
-            "{}: {rate} frames per second (modelled){waits}; {} vertices are run and {} triangles set up in {} draws.",
-            self.profile.title, time.vertices_run, time.triangles, time.calls
+            "{}: {rate} frames per second (modelled){waits}; {} vertices are run and {} triangles set up in {}.",
+            self.profile.title,
+            time.vertices_run,
+            time.triangles,
+            counted(time.calls as u64, "draw", "draws")
         ));
         let times = [
             ("frame to frame", time.frame),

@@ -56,7 +56,7 @@ pub(super) fn modelled_from_clusters(
 /// light.
 pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
     let host = host_of_section_7().on(HOST)?;
-    Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
+    Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.multiply_adds(size.vertices) as u64).seconds())
 }
 
 pub(super) fn rate_row(id: &str, time: &FrameTime, from: &'static str) -> Result<PaperRow, StudyError> {

@@ -96,6 +96,8 @@ fn a_diffuse_surface_has_rank_1() {
         assert_eq!(refused.unwrap_err().to_string(), "expected 1 to 1 terms, the rank of the table, found 2");
         assert_eq!(Factorization::up_to(&table, 10).expect("a term").terms(), 1);
     }
+    let zeros = ProductTable::of_numbers(&NumberTable { columns: 4, values: vec![0.0; 16] }, "0".as_ref());
+    assert_eq!(Factorization::new(&zeros.expect("a table"), 1).unwrap_err().error_code(), "crossbar::factor::dark");
 }
 
 /// Without the cosine and with the same samples for both sides, a reciprocal reflectance is a symmetric table.

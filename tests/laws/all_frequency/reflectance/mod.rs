@@ -1,4 +1,0 @@
-//! Factors of reflectance: error bounds by singular values, measured files, tables.
-
-mod factors;
-mod tables;
