@@ -43,6 +43,15 @@ impl ExactSum {
         self.magnitudes += addend.abs();
     }
 
+    /// Adds a product with the rest that a double cannot hold; only products of fp64 have one.
+    fn add_product(&mut self, x: f64, y: f64) {
+        let product = x * y;
+        self.add(product);
+        if product.is_finite() {
+            self.low += libm::fma(x, y, -product);
+        }
+    }
+
     /// The sum as one double.
     pub(super) fn value(self) -> f64 {
         self.high + self.low
@@ -150,8 +159,8 @@ impl MatrixOperands {
         Ok(rows.par_chunks(TASK_ROWS).flat_map_iter(task).collect())
     }
 
-    /// The exact D for each depth. Products of up to 26 bits are exact in a double, and their sums in two doubles,
-    /// except for types with the exponents of single precision.
+    /// The exact D for each depth, in two doubles: rounded to about 106 bits for fp64 and for types with the exponents
+    /// of single precision, exact for all others.
     pub(super) fn exact(&self, depths: &[usize]) -> Vec<Vec<ExactSum>> {
         let elements: Vec<Vec<ExactSum>> =
             (0..self.c.len()).into_par_iter().map(|index| self.exact_element(index, depths)).collect();
@@ -167,7 +176,7 @@ impl MatrixOperands {
         sum.add(self.unit.addend.number(self.c[index]));
         let mut start = 0;
         let mut prefix = |&end: &usize| {
-            row[start..end].iter().zip(&column[start..end]).for_each(|(x, y)| sum.add(x * y));
+            row[start..end].iter().zip(&column[start..end]).for_each(|(&x, &y)| sum.add_product(x, y));
             start = end;
             sum
         };
