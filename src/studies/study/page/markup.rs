@@ -2,13 +2,14 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
+use serde_json::Value;
+use strum::VariantArray as _;
 
-use super::arithmetic::Arithmetic;
 use super::own::{self, Emulator};
-use super::programs::PagePrograms;
-use super::teapot::{FixedView, Teapot, VerdictColor};
+use super::teapot::{FixedView, Teapot};
 use crate::report::page_style;
 use crate::report::words::counted;
+use crate::study::leaky_teapot::PixelVerdict;
 
 /// Script of the page, in the order in which its parts need each other.
 const SCRIPT: [&str; 9] = [
@@ -29,9 +30,9 @@ const MAIN: &str = include_str!("assets/main.js");
 #[derive(Debug, Serialize)]
 pub(super) struct PageData {
     pub(super) version: &'static str,
-    pub(super) arithmetic: Arithmetic,
+    pub(super) arithmetic: Value,
     pub(super) teapot: Teapot,
-    pub(super) programs: PagePrograms,
+    pub(super) programs: Value,
 }
 
 pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> String {
@@ -60,7 +61,7 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
                     p #status role="status" { "Waiting for the script. Without it the page shows stored pictures." }
                     dl #adapter {}
                     (arithmetic())
-                    (live(&data.teapot.verdicts))
+                    (live())
                     (programs())
                     (fixed_views(&data.teapot.views))
                     (own::playground(emulator.is_some()))
@@ -104,7 +105,7 @@ fn arithmetic() -> Markup {
     }
 }
 
-fn live(verdicts: &[VerdictColor]) -> Markup {
+fn live() -> Markup {
     html! {
         section aria-labelledby="live" {
             h2 #live { "The teapot in any number format" }
@@ -119,7 +120,7 @@ fn live(verdicts: &[VerdictColor]) -> Markup {
             }
             p #told role="status" {}
             ul.legend aria-label="Colors" {
-                @for VerdictColor { words, color: [r, g, b] } in verdicts.iter().rev().take(4) {
+                @for (words, [r, g, b]) in PixelVerdict::VARIANTS.iter().rev().take(4).map(|v| (v.words(), v.color())) {
                     li { span.swatch aria-hidden="true" style=(format!("background:#{r:02x}{g:02x}{b:02x}")) {} (words) }
                 }
             }

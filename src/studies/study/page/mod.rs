@@ -12,9 +12,7 @@ mod program_cases;
 mod programs;
 mod teapot;
 
-use self::arithmetic::Arithmetic;
 use self::markup::PageData;
-use self::programs::PagePrograms;
 use self::teapot::Teapot;
 use crate::report::not_encoded;
 use crate::study::{ProgressFn, StudyError};
@@ -32,11 +30,11 @@ pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<St
     let emulator = emulator.map(own::Emulator::new).transpose();
     let emulator = emulator.map_err(|error| not_encoded("gzip", error))?;
     progress("arithmetic", 0, 3);
-    let arithmetic = Arithmetic::compute();
+    let arithmetic = arithmetic::arithmetic();
     progress("the teapot", 1, 3);
     let teapot = Teapot::compute()?;
     progress("programs", 2, 3);
-    let programs = PagePrograms::compute()?;
+    let programs = programs::programs()?;
     let data = PageData { version: env!("CARGO_PKG_VERSION"), arithmetic, teapot, programs };
     let json = serde_json::to_string(&data).map_err(|error| not_encoded("JSON", error))?;
     Ok(markup::html(&data, &json, emulator.as_ref()))
