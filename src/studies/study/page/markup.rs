@@ -1,12 +1,10 @@
 //! The page's markup, around the data, style and script.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use serde::Serialize;
-use serde_json::Value;
 use strum::VariantArray as _;
 
 use super::own::{self, Emulator};
-use super::teapot::{FixedView, Teapot};
+use super::teapot::FixedView;
 use crate::report::page_style;
 use crate::report::words::counted;
 use crate::study::leaky_teapot::PixelVerdict;
@@ -26,16 +24,8 @@ const SCRIPT: [&str; 9] = [
 
 const MAIN: &str = include_str!("assets/main.js");
 
-/// The data that the page's script reads, as JSON.
-#[derive(Debug, Serialize)]
-pub(super) struct PageData {
-    pub(super) version: &'static str,
-    pub(super) arithmetic: Value,
-    pub(super) teapot: Teapot,
-    pub(super) programs: Value,
-}
-
-pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> String {
+/// The page; `json` is the data that its script reads.
+pub(super) fn html(version: &str, views: &[FixedView], json: &str, emulator: Option<&Emulator>) -> String {
     // A less-than sign could end the element.
     let json = json.replace('<', "\\u003c");
     let script = format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPT.concat() + &own::script(emulator) + MAIN);
@@ -63,11 +53,11 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
                     (arithmetic())
                     (live())
                     (programs())
-                    (fixed_views(&data.teapot.views))
+                    (fixed_views(views))
                     (own::playground(emulator.is_some()))
                     @if emulator.is_some_and(|emulator| emulator.takes_shaders) { (own::shader()) }
                     (results())
-                    p.provenance { "Crossbar " (data.version) ". The page loads nothing and sends nothing." }
+                    p.provenance { "Crossbar " (version) ". The page loads nothing and sends nothing." }
                 }
                 script #data type="application/json" { (PreEscaped(json)) }
                 @if let Some(emulator) = emulator {

@@ -12,7 +12,8 @@ mod program_cases;
 mod programs;
 mod teapot;
 
-use self::markup::PageData;
+use serde_json::json;
+
 use self::teapot::Teapot;
 use crate::report::not_encoded;
 use crate::study::{ProgressFn, StudyError};
@@ -35,7 +36,7 @@ pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<St
     let teapot = Teapot::compute()?;
     progress("programs", 2, 3);
     let programs = programs::programs()?;
-    let data = PageData { version: env!("CARGO_PKG_VERSION"), arithmetic, teapot, programs };
-    let json = serde_json::to_string(&data).map_err(|error| not_encoded("JSON", error))?;
-    Ok(markup::html(&data, &json, emulator.as_ref()))
+    let version = env!("CARGO_PKG_VERSION");
+    let data = json!({ "version": version, "arithmetic": arithmetic, "teapot": teapot, "programs": programs });
+    Ok(markup::html(version, &teapot.views, &data.to_string(), emulator.as_ref()))
 }
