@@ -43,10 +43,9 @@ impl ExactSum {
         self.magnitudes += addend.abs();
     }
 
-    /// Adds a product with the rest that a double cannot hold; only products of fp64 have one.
-    fn add_product(&mut self, x: f64, y: f64) {
+    /// Adds what `x * y` loses as one double; only products of fp64 lose something.
+    fn add_rest(&mut self, x: f64, y: f64) {
         let product = x * y;
-        self.add(product);
         if product.is_finite() {
             self.low += libm::fma(x, y, -product);
         }
@@ -159,8 +158,8 @@ impl MatrixOperands {
         Ok(rows.par_chunks(TASK_ROWS).flat_map_iter(task).collect())
     }
 
-    /// The exact D for each depth, in two doubles: rounded to about 106 bits for fp64 and for types with the exponents
-    /// of single precision, exact for all others.
+    /// The exact D for each depth, in two doubles: exact for types without scales of up to five exponent bits, and
+    /// otherwise rounded to about 106 bits.
     pub(super) fn exact(&self, depths: &[usize]) -> Vec<Vec<ExactSum>> {
         let elements: Vec<Vec<ExactSum>> =
             (0..self.c.len()).into_par_iter().map(|index| self.exact_element(index, depths)).collect();
@@ -176,7 +175,12 @@ impl MatrixOperands {
         sum.add(self.unit.addend.number(self.c[index]));
         let mut start = 0;
         let mut prefix = |&end: &usize| {
-            row[start..end].iter().zip(&column[start..end]).for_each(|(&x, &y)| sum.add_product(x, y));
+            for (&x, &y) in row[start..end].iter().zip(&column[start..end]) {
+                sum.add(x * y);
+                if self.a.element == Element::FP64 {
+                    sum.add_rest(x, y);
+                }
+            }
             start = end;
             sum
         };

@@ -32,9 +32,9 @@ struct Buffers {
 
 /// The programs with their traces. `shaders` run programs with the number library, and in the adapter's own floats;
 /// `record` has the sizes of a record's header and of a step, in words, and the first words of a record with a fragment
-/// and of a record to be continued; `resumes` is the word of a draw that marks a continuation. A program's `case` is the
-/// case file before and after the line of its format, and `native` the program in single precision for the adapter's
-/// floats.
+/// and of a record to be continued; `resumes` is the word of a draw that marks a continuation. A program's `case` is
+/// the case file before and after the line of its format, and `native` the program in single precision for the
+/// adapter's floats.
 pub(super) fn programs() -> Result<Value, StudyError> {
     let mut buffers = Buffers::default();
     let mut parts = [Parts::default(), Parts::default()];
@@ -91,10 +91,10 @@ fn loaded(setup: &Setup) -> Result<Loaded<'_>, StudyError> {
     Ok(Loaded::new(setup, ExecutorKind::Scalar)?)
 }
 
-/// A program in a format: its trace, and the results at every pixel. `named` is the format that the case names, if it is
-/// not the device's own. `entries` are a pixel's input registers, then its instructions; `values` are the written values
-/// by pixel, entry and component, little-endian patterns of the fewest bytes that hold the format; `fates` are the
-/// outcomes of the pixels' fragments, as in records.
+/// A program in a format: its trace, and the results at every pixel. `named` is the format that the case names, if it
+/// is not the device's own. `entries` are a pixel's input registers, then its instructions; `values` are the written
+/// values by pixel, entry and component, little-endian patterns of the fewest bytes that hold the format; `fates` are
+/// the outcomes of the pixels' fragments, as in records.
 fn variant(
     case: &ProgramCase,
     format: Option<&'static str>,
@@ -145,8 +145,9 @@ struct TraceReader<'s> {
 }
 
 impl TraceReader<'_> {
-    /// The entries: input registers, and instructions that write. `instruction` is the number in records, where the input
-    /// registers follow the instructions; `line` counts from 0; `names` are the written components in the language.
+    /// The entries: input registers, and instructions that write. `instruction` is the number in records, where the
+    /// input registers follow the instructions; `line` counts from 0; `names` are the written components in the
+    /// language.
     fn read(&mut self, fragment: &FragmentTrace) -> (Vec<Value>, Vec<u8>) {
         let program = &self.setup.pixel;
         let formats = FragmentFormats::new(&self.setup.profile.rules);

@@ -1,7 +1,8 @@
 //! Enclosures of elementary functions at a dyadic point, by series in integers.
 //!
-//! Values are integers in units of `2^-places`, as in [`refsim::num::series`]. All functions work with [`GUARD`] more bits than their result needs, and widen the result by `2^ERROR` units:
-//! a series has at most one term per bit, there are fewer than `2^14` bits, and a term errs by at most eight units.
+//! Values are integers in units of `2^-places`, as in [`refsim::num::series`]. All functions work with [`GUARD`] more
+//! bits than their result needs, and widen the result by `2^ERROR` units: a series has at most one term per bit, there
+//! are fewer than `2^14` bits, and a term errs by at most eight units.
 
 use num_bigint::BigInt;
 use num_integer::Integer as _;
