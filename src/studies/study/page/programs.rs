@@ -50,7 +50,7 @@ pub(super) fn programs() -> Result<Value, StudyError> {
         native.draw[SPECIAL_WORD] += NATIVE;
         parts[1].extend(&native.parts);
         let native = buffers.job(native);
-        let source: Vec<&str> = setup.pixel_text.named_source().text().lines().collect();
+        let source: Vec<String> = setup.pixel_text.named_source().text().lines().map(str::to_owned).collect();
         let (ProgramCase { name, title, about, .. }, texts) = (&case, case.parts());
         programs.push(json!({
             "name": name, "title": title, "about": about, "source": source, "case": texts, "variants": variants,
