@@ -1,19 +1,17 @@
 //! Enclosures of transcendental functions: finer ones lie within coarser ones.
 
-#[path = "../../lanes/src/num/transcendental/circle.rs"]
-mod circle;
 #[path = "../../lanes/src/num/transcendental/enclose.rs"]
 mod enclose;
 
-use circle::{circular, pi};
-use enclose::{Enclosure, exp2_long, exp2_quick, log2_long, log2_quick};
+use enclose::{Enclosure, circular, exp2_long, exp2_quick, log2_long, log2_quick};
 use num_bigint::BigInt;
+use refsim::num::series;
 
 #[test]
 fn pi_is_pi() {
     // 3.14159265358979323846264338327950288419716939937510582097494459230781640628620899
     let digits = "314159265358979323846264338327950288419716939937510582097494";
-    let scaled: BigInt = (pi(256) * BigInt::from(10).pow(59)) >> 256;
+    let scaled: BigInt = (series::pi(256) * BigInt::from(10).pow(59)) >> 256;
     assert_eq!(scaled.to_string(), digits);
 }
 

@@ -36,7 +36,7 @@ pub use model::{ModelOptions, UpAxis, load_mesh, load_mesh_with, load_scene, loa
 pub use model_note::ModelNote;
 pub use npy::{
     NumberArray, NumbersOrCodes, load_npy_array, load_numbers, load_numbers_or_codes, parse_npy_array, parse_numbers,
-    write_npy_array,
+    write_npy_array, write_npy_doubles,
 };
 pub use npz::{NpzReader, NpzWriter};
 pub use number::{NumberError, parse_f32, parse_f64, to_f32};

@@ -234,6 +234,13 @@ pub fn write_npy_array(shape: &[usize], values: &[f32], out: &mut dyn Write) -> 
     values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
 }
 
+/// Writes doubles of any shape as an array of little-endian f8, in version 1.
+pub fn write_npy_doubles(shape: &[usize], values: &[f64], out: &mut dyn Write) -> io::Result<()> {
+    assert_eq!(values.len(), shape.iter().product::<usize>(), "as many as the shape says");
+    out.write_all(&beginning("<f8", shape))?;
+    values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
+}
+
 /// The first bytes and header of an array, in version 1.
 pub(super) fn beginning(descr: &str, shape: &[usize]) -> Vec<u8> {
     let axes: Vec<String> = shape.iter().map(usize::to_string).collect();

@@ -20,6 +20,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use super::convert::unpack_f64;
 use super::env::Env;
 use super::flags::{Flags, Outcome};
 use super::format::Format;
@@ -92,14 +93,22 @@ impl BlockFormat {
     /// once, to nearest even. A block that contains infinity or NaN gets the scale NaN and elements of 0, and raises
     /// `INVALID`.
     pub fn quantize(self, from: &Format, numbers: &[u32]) -> Block {
-        let values: Vec<Unpacked> = numbers.iter().map(|&bits| unpack(from, bits)).collect();
+        self.quantize_values(&numbers.iter().map(|&bits| unpack(from, bits)).collect::<Vec<_>>())
+    }
+
+    /// [`Self::quantize`] for doubles.
+    pub fn quantize_doubles(self, numbers: &[f64]) -> Block {
+        self.quantize_values(&numbers.iter().map(|&number| unpack_f64(number)).collect::<Vec<_>>())
+    }
+
+    fn quantize_values(self, values: &[Unpacked]) -> Block {
         let mut largest = None;
-        for value in &values {
+        for value in values {
             match *value {
                 Unpacked::Finite { sig: 0, .. } => {}
                 Unpacked::Finite { sig, exp, den, .. } => largest = largest.max(Some(log2_floor(sig, den) + exp)),
                 Unpacked::Inf { .. } | Unpacked::Nan { .. } => {
-                    let elements = vec![0; numbers.len()];
+                    let elements = vec![0; values.len()];
                     return Block { scale: nan_bits(&Format::E8M0), elements, flags: Flags::INVALID };
                 }
             }

@@ -3,7 +3,7 @@
 use super::env::Env;
 use super::flags::{Flags, Outcome};
 use super::format::Format;
-use super::round::{from_parts, infinite, round_quotient};
+use super::round::{infinite, round_quotient};
 use super::rules::{Denormals, Unit};
 use super::unpack::{Unpacked, nan_bits, unpack, zero};
 
@@ -28,29 +28,34 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     {
         return zero(&to.format, from.is_negative(bits));
     }
-    match unpack(from, bits) {
+    rounded(&to, unpack(from, bits))
+}
+
+fn rounded(to: &Env, value: Unpacked) -> Outcome {
+    match value {
         Unpacked::Nan { signaling } => {
             let bad = signaling || to.format.canonical_nan().is_none();
             Outcome::new(nan_bits(&to.format), if bad { Flags::INVALID } else { Flags::empty() })
         }
         Unpacked::Inf { sign } => infinite(&to.format, sign),
-        Unpacked::Finite { sign, sig, exp, den } => round_quotient(&to, sign, sig, exp, den.into()),
+        Unpacked::Finite { sign, sig, exp, den } => round_quotient(to, sign, sig, exp, den.into()),
     }
 }
 
 /// Rounds a host double once into a format, by its rules; NaN and infinities as in [`convert`].
 pub fn from_f64(to: impl Into<Env>, x: f64) -> Outcome {
-    let to = to.into();
+    rounded(&to.into(), unpack_f64(x))
+}
+
+/// The value of a double; every NaN is quiet.
+pub(super) fn unpack_f64(x: f64) -> Unpacked {
     let (sign, field, fraction) = (x.is_sign_negative(), (x.to_bits() >> 52 & 0x7ff) as i32, x.to_bits() & FRACTION);
-    if x.is_nan() {
-        let bad = to.format.canonical_nan().is_none();
-        return Outcome::new(nan_bits(&to.format), if bad { Flags::INVALID } else { Flags::empty() });
-    }
-    if x.is_infinite() {
-        return infinite(&to.format, sign);
-    }
     let sig = if field == 0 { fraction } else { fraction | (FRACTION + 1) };
-    from_parts(to, sign, sig.into(), field.max(1) - 1075, false)
+    match field {
+        0x7ff if fraction == 0 => Unpacked::Inf { sign },
+        0x7ff => Unpacked::Nan { signaling: false },
+        _ => Unpacked::Finite { sign, sig, exp: field.max(1) - 1075, den: 1 },
+    }
 }
 
 /// The stored significand of a double.

@@ -64,6 +64,7 @@ mod parse;
 mod random;
 mod round;
 mod rules;
+pub mod series;
 mod sum;
 mod transcendental;
 pub mod unit;

@@ -6,7 +6,6 @@
 //! of the format. Exact results are handled separately, so the loop ends: `2^x` is irrational for every rational `x`
 //! that isn't an integer, and `log2 x` for every rational `x` that isn't a power of two.
 
-mod circle;
 mod enclose;
 
 use num_bigint::BigInt;
@@ -19,6 +18,7 @@ use super::format::FormatKind;
 use super::ops::mul;
 use super::round::{divide_by_zero, from_parts, in_units, infinite, zero};
 use super::rules::Overflow;
+use super::series;
 use super::unit;
 use super::unit::UnitOperation;
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
@@ -143,7 +143,7 @@ fn circular(env: Env, x: u32, sine: bool) -> Outcome {
         Unpacked::Finite { sign, sig: 0, .. } if sine => zero(format, sign),
         Unpacked::Finite { sig: 0, .. } => from_parts(env, false, 1, 0, false),
         Unpacked::Finite { sign, sig, exp, den } => {
-            decide_long(&env, |places| circle::circular(sine, sign, sig, exp, den, places))
+            decide_long(&env, |places| enclose::circular(sine, sign, sig, exp, den, places))
         }
     }
 }

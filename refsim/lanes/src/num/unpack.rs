@@ -22,7 +22,7 @@ pub enum Unpacked {
     Finite {
         /// Negative, or -0.
         sign: bool,
-        /// Magnitude in units of `2^exp`, at most `2^31`.
+        /// Magnitude in units of `2^exp`, at most `2^31`, or `2^53` for a double.
         sig: u64,
         /// Exponent of the unit.
         exp: i32,

@@ -43,6 +43,14 @@ impl ExactSum {
         self.magnitudes += addend.abs();
     }
 
+    /// Adds what `x * y` loses as one double; only products of fp64 lose something.
+    fn add_rest(&mut self, x: f64, y: f64) {
+        let product = x * y;
+        if product.is_finite() {
+            self.low += libm::fma(x, y, -product);
+        }
+    }
+
     /// The sum as one double.
     pub(super) fn value(self) -> f64 {
         self.high + self.low
@@ -150,8 +158,8 @@ impl MatrixOperands {
         Ok(rows.par_chunks(TASK_ROWS).flat_map_iter(task).collect())
     }
 
-    /// The exact D for each depth. Products of up to 26 bits are exact in a double, and their sums in two doubles,
-    /// except for types with the exponents of single precision.
+    /// The exact D for each depth, in two doubles: exact for types without scales of up to five exponent bits, and
+    /// otherwise rounded to about 106 bits.
     pub(super) fn exact(&self, depths: &[usize]) -> Vec<Vec<ExactSum>> {
         let elements: Vec<Vec<ExactSum>> =
             (0..self.c.len()).into_par_iter().map(|index| self.exact_element(index, depths)).collect();
@@ -167,7 +175,12 @@ impl MatrixOperands {
         sum.add(self.unit.addend.number(self.c[index]));
         let mut start = 0;
         let mut prefix = |&end: &usize| {
-            row[start..end].iter().zip(&column[start..end]).for_each(|(x, y)| sum.add(x * y));
+            for (&x, &y) in row[start..end].iter().zip(&column[start..end]) {
+                sum.add(x * y);
+                if self.a.element == Element::FP64 {
+                    sum.add_rest(x, y);
+                }
+            }
             start = end;
             sum
         };

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use refsim::exec::batch::MatrixRows;
-use refsim::num::Format;
 use refsim::num::block::BlockFormat;
 use refsim::num::matrix::{Element, MatrixError, MatrixUnit};
 
@@ -93,10 +92,9 @@ impl MatrixInput {
                     })
                 });
                 let block = block.ok_or_else(|| wrong("a type of the MX formats", element.name.into()))?;
-                let words: Vec<u32> =
-                    (0..count * length).map(|index| (array.values[place(index)] as f32).to_bits()).collect();
-                for words in words.chunks(length).flat_map(|row| row.chunks(share)) {
-                    let made = block.quantize(&Format::FP32, words);
+                let numbers: Vec<f64> = (0..count * length).map(|index| array.values[place(index)]).collect();
+                for numbers in numbers.chunks(length).flat_map(|row| row.chunks(share)) {
+                    let made = block.quantize_doubles(numbers);
                     rows.codes.extend(made.elements.into_iter().map(u64::from));
                     rows.scales.push(made.scale as u8);
                 }

@@ -67,7 +67,7 @@ impl Errors {
             let share = |of: f64| if error == 0.0 { 0.0 } else { error / of };
             errors.worst = errors.worst.max(share(size).abs());
             errors.of_addends = errors.of_addends.max(share(reference.magnitudes).abs());
-            sum += if found < 0.0 { -share(size) } else { share(size) };
+            sum += if reference.value() < 0.0 { -share(size) } else { share(size) };
         }
         errors.mean = sum / (found.len() - errors.not_finite).max(1) as f64;
         errors
@@ -75,7 +75,7 @@ impl Errors {
 
     /// Correct bits of the worst element.
     pub(super) fn bits(&self) -> f64 {
-        -crate::elementary::ln(self.worst) / std::f64::consts::LN_2
+        0.0 - crate::elementary::ln(self.worst) / std::f64::consts::LN_2
     }
 
     fn measure(&self, name: &str) -> Option<f64> {

@@ -1,10 +1,11 @@
 //! Findings of the study.
 
+use refsim::num::matrix::Element;
 use serde_json::json;
 
 use super::blame::{AddendFate, Blame};
 use super::product::{Errors, MatrixProduct, ProductOutcome, ProductRow};
-use crate::io::write_npy_array;
+use crate::io::{write_npy_array, write_npy_doubles};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::{ProgressFn, Study, StudyError};
@@ -78,9 +79,13 @@ fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result<Findings, 
     }
     for row in &outcome.rows {
         let mut bytes = Vec::new();
-        let values: Vec<f32> = row.product.iter().map(|&value| value as f32).collect();
         // Writing to memory cannot fail.
-        write_npy_array(&[rows, columns], &values, &mut bytes).ok();
+        if row.unit.result.element == Element::FP64 {
+            write_npy_doubles(&[rows, columns], &row.product, &mut bytes).ok();
+        } else {
+            let values: Vec<f32> = row.product.iter().map(|&value| value as f32).collect();
+            write_npy_array(&[rows, columns], &values, &mut bytes).ok();
+        }
         let promote = row.promote.map(|step| format!("_{step}")).unwrap_or_default();
         found.keep_file(format!("{}{promote}.npy", row.unit.name), bytes);
     }

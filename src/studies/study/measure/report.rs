@@ -71,7 +71,7 @@ fn values(survey: &Survey, fitting: &[&Setting]) -> Table {
             table.push([
                 Cell::from(question.name.as_str()),
                 name.as_str().into(),
-                Cell::Flag(value == question.default),
+                Cell::Flag(*name == question.current),
                 survey.best_with(at, value).into(),
                 survey.codes.into(),
                 verdict.into(),

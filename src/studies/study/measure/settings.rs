@@ -25,21 +25,14 @@ pub struct Measure {
     pub known: Vec<(String, String)>,
 }
 
-/// Switch with its possible values; a setting stores an index into them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Question {
-    pub(super) name: String,
-    pub(super) values: Vec<String>,
-    pub(super) default: usize,
-}
-
-/// Values of some switches: index of the switch to index of its value. Other switches have their defaults.
+/// Values of some switches: index of the switch to index of its value. Other switches have their current values.
 pub(super) type Setting = BTreeMap<usize, usize>;
 
 /// Counts of measured codes that each setting reproduces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Survey {
-    pub(super) questions: Vec<Question>,
+    /// Switches with their possible values: a switch that is known has only its current value.
+    pub(super) questions: Vec<Switch>,
     /// Switches that some measured code depends on, by index.
     pub(super) relevant: BTreeSet<usize>,
     /// Settings of the relevant switches with the number of codes that each reproduces, best first.
@@ -71,7 +64,10 @@ impl Survey {
     /// be drawn on the device as it is, a pixel lies outside its target, or there are too many settings.
     pub(super) fn new(measure: &Measure, progress: &mut ProgressFn<'_>) -> Result<Self, StudyError> {
         let Measure { profile, cases, .. } = measure;
-        let questions = questions(measure);
+        let mut questions = profile.switches().to_vec();
+        for known in questions.iter_mut().filter(|switch| measure.known.iter().any(|(name, _)| *name == switch.name)) {
+            known.values = vec![known.current.clone()];
+        }
         let mut counts = Vec::new();
         for (done, case) in (0..).zip(cases) {
             progress(&case.path.display().to_string(), done, cases.len() as u64);
@@ -109,19 +105,8 @@ impl Survey {
     }
 }
 
-/// Switches of a device with their possible values. A switch that is known has only its current value.
-fn questions(measure: &Measure) -> Vec<Question> {
-    let of = |switch: &Switch| {
-        let is_known = measure.known.iter().any(|(name, _)| *name == switch.name);
-        let values = if is_known { vec![switch.current.clone()] } else { switch.values.clone() };
-        let default = values.iter().position(|value| *value == switch.current).unwrap_or(0);
-        Question { name: switch.name.clone(), values, default }
-    };
-    measure.profile.switches().iter().map(of).collect()
-}
-
 /// All combinations of values of some switches.
-fn product(questions: &[Question], some: &BTreeSet<usize>, most: usize) -> Result<Vec<Setting>, StudyError> {
+fn product(questions: &[Switch], some: &BTreeSet<usize>, most: usize) -> Result<Vec<Setting>, StudyError> {
     let count = some.iter().fold(1_usize, |count, &at| count.saturating_mul(questions[at].values.len()));
     if count > most {
         let names: Vec<&str> = some.iter().map(|&at| questions[at].name.as_str()).collect();
@@ -146,7 +131,7 @@ fn product(questions: &[Question], some: &BTreeSet<usize>, most: usize) -> Resul
 /// Draws of a case under settings.
 struct MeasuredDraws<'a> {
     profile: &'a Profile,
-    questions: &'a [Question],
+    questions: &'a [Switch],
     case: &'a MeasuredCase,
 }
 
@@ -231,9 +216,10 @@ impl MeasuredDraws<'_> {
     }
 }
 
-/// Values of a switch except its default, each with the switch's index.
-fn others((at, question): (usize, &Question)) -> Vec<(usize, usize)> {
-    (0..question.values.len()).filter(|value| *value != question.default).map(|value| (at, value)).collect()
+/// Values of a switch except the current one, each with the switch's index.
+fn others((at, question): (usize, &Switch)) -> Vec<(usize, usize)> {
+    let values = 0..question.values.len();
+    values.filter(|&value| question.values[value] != question.current).map(|value| (at, value)).collect()
 }
 
 /// Draws a case and returns the stored codes at measured pixels.

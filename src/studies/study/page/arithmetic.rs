@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use refsim::exec::wgsl::number::{format_words, library};
 use refsim::exec::wgsl::parts::Parts;
 use refsim::num::{Format, NumberOperation as Op};
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::encode::base64;
 use super::operands::PatternBits;
@@ -50,79 +50,35 @@ const FORMATS: [(&str, &str, Option<&str>); 8] = [
     ("e8m23", "fp32", Some("f32")),
 ];
 
-#[derive(Debug, Serialize)]
-pub(super) struct Arithmetic {
-    sets: u32,
-    shaders: Vec<ArithmeticShader>,
-    operations: Vec<OperationColumn>,
-    formats: Vec<FormatColumn>,
-    /// Results by operation, then format: little-endian patterns of the fewest bytes that hold the format's width.
-    expected: Vec<Vec<String>>,
-    native: NativeShader,
-}
-
-#[derive(Debug, Serialize)]
-struct ArithmeticShader {
-    entry: &'static str,
-    text: String,
-}
-
-#[derive(Debug, Serialize)]
-struct OperationColumn {
-    name: &'static str,
-    word: u32,
-    operands: usize,
-    shader: usize,
-    accuracy: &'static str,
-}
-
-#[derive(Debug, Serialize)]
-struct FormatColumn {
-    name: &'static str,
-    title: &'static str,
-    words: [u32; 8],
-    width: u32,
-    bits: PatternBits,
-    /// The adapter's own type with this format.
-    native: Option<&'static str>,
-}
-
-#[derive(Debug, Serialize)]
-struct NativeShader {
-    text: &'static str,
-    constants: String,
-}
-
-impl Arithmetic {
-    pub(super) fn compute() -> Self {
-        let formats = FORMATS.map(|(name, ..)| name.parse().unwrap_or(Format::FP32));
-        let expected = (0..OPERATIONS.len())
-            .into_par_iter()
-            .map(|row| (0..FORMATS.len()).map(|column| base64(results(row, column, &formats[column]))).collect())
-            .collect();
-        let operations = OPERATIONS.map(|(operation, name, shader, accuracy)| {
-            let (word, operands) = (operation.word(), operation.operands());
-            OperationColumn { name, word, operands, shader, accuracy }
-        });
-        Self {
-            sets: SETS,
-            shaders: SHADERS.map(|(entry, operations)| shader(entry, operations, &formats)).into(),
-            operations: operations.into(),
-            formats: FORMATS.into_iter().zip(&formats).map(|(named, format)| column(named, format)).collect(),
-            expected,
-            native: NativeShader {
-                text: concat!(include_str!("assets/native_operation.wgsl"), include_str!("assets/native.wgsl")),
-                constants: OPERATIONS
-                    .map(|(operation, ..)| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word()))
-                    .concat(),
-            },
-        }
-    }
-}
-
-fn column((name, title, native): (&'static str, &'static str, Option<&'static str>), format: &Format) -> FormatColumn {
-    let bits = PatternBits::new(format);
-    FormatColumn { name, title, words: format_words(format), width: format.width(), bits, native }
+/// The data of the tables. `expected` has the results by operation, then format: little-endian patterns of the fewest
+/// bytes that hold the format's width. `native` of a format is the adapter's own type with this format.
+pub(super) fn arithmetic() -> Value {
+    let formats = FORMATS.map(|(name, ..)| name.parse().unwrap_or(Format::FP32));
+    let expected: Vec<Vec<String>> = (0..OPERATIONS.len())
+        .into_par_iter()
+        .map(|row| (0..FORMATS.len()).map(|column| base64(results(row, column, &formats[column]))).collect())
+        .collect();
+    let operations = OPERATIONS.map(|(operation, name, shader, accuracy)| {
+        let (word, operands) = (operation.word(), operation.operands());
+        json!({ "name": name, "word": word, "operands": operands, "shader": shader, "accuracy": accuracy })
+    });
+    let columns = FORMATS.into_iter().zip(&formats).map(|((name, title, native), format)| {
+        let (words, bits) = (format_words(format), PatternBits::new(format));
+        json!({
+            "name": name, "title": title, "words": words, "width": format.width(), "bits": bits, "native": native,
+        })
+    });
+    let constants =
+        OPERATIONS.map(|(operation, ..)| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word()));
+    let native = concat!(include_str!("assets/native_operation.wgsl"), include_str!("assets/native.wgsl"));
+    json!({
+        "sets": SETS,
+        "shaders": SHADERS.map(|(entry, operations)| shader(entry, operations, &formats)),
+        "operations": operations,
+        "formats": columns.collect::<Vec<_>>(),
+        "expected": expected,
+        "native": { "text": native, "constants": constants.concat() },
+    })
 }
 
 /// Counter of an operand set, from which the generator derives the operands.
@@ -137,10 +93,10 @@ fn results(row: usize, column: usize, format: &Format) -> Vec<u8> {
     sets.flat_map(|set| result(set).to_le_bytes().into_iter().take(bytes)).collect()
 }
 
-fn shader(entry: &'static str, operations: &[Op], formats: &[Format]) -> ArithmeticShader {
+fn shader(entry: &'static str, operations: &[Op], formats: &[Format]) -> Value {
     let mut parts = Parts::default();
     operations.iter().for_each(|&operation| parts.add_operation(operation));
     formats.iter().for_each(|format| parts.add_format(format));
     let text = parts.of(&(library() + include_str!("assets/arithmetic.wgsl")), entry);
-    ArithmeticShader { entry, text }
+    json!({ "entry": entry, "text": text })
 }

@@ -1,14 +1,13 @@
 //! The page's markup, around the data, style and script.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use serde::Serialize;
+use strum::VariantArray as _;
 
-use super::arithmetic::Arithmetic;
 use super::own::{self, Emulator};
-use super::programs::PagePrograms;
-use super::teapot::{FixedView, Teapot, VerdictColor};
+use super::teapot::FixedView;
 use crate::report::page_style;
 use crate::report::words::counted;
+use crate::study::leaky_teapot::PixelVerdict;
 
 /// Script of the page, in the order in which its parts need each other.
 const SCRIPT: [&str; 9] = [
@@ -25,16 +24,8 @@ const SCRIPT: [&str; 9] = [
 
 const MAIN: &str = include_str!("assets/main.js");
 
-/// The data that the page's script reads, as JSON.
-#[derive(Debug, Serialize)]
-pub(super) struct PageData {
-    pub(super) version: &'static str,
-    pub(super) arithmetic: Arithmetic,
-    pub(super) teapot: Teapot,
-    pub(super) programs: PagePrograms,
-}
-
-pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> String {
+/// The page; `json` is the data that its script reads.
+pub(super) fn html(version: &str, views: &[FixedView], json: &str, emulator: Option<&Emulator>) -> String {
     // A less-than sign could end the element.
     let json = json.replace('<', "\\u003c");
     let script = format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPT.concat() + &own::script(emulator) + MAIN);
@@ -60,13 +51,13 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
                     p #status role="status" { "Waiting for the script. Without it the page shows stored pictures." }
                     dl #adapter {}
                     (arithmetic())
-                    (live(&data.teapot.verdicts))
+                    (live())
                     (programs())
-                    (fixed_views(&data.teapot.views))
+                    (fixed_views(views))
                     (own::playground(emulator.is_some()))
                     @if emulator.is_some_and(|emulator| emulator.takes_shaders) { (own::shader()) }
                     (results())
-                    p.provenance { "Crossbar " (data.version) ". The page loads nothing and sends nothing." }
+                    p.provenance { "Crossbar " (version) ". The page loads nothing and sends nothing." }
                 }
                 script #data type="application/json" { (PreEscaped(json)) }
                 @if let Some(emulator) = emulator {
@@ -104,7 +95,7 @@ fn arithmetic() -> Markup {
     }
 }
 
-fn live(verdicts: &[VerdictColor]) -> Markup {
+fn live() -> Markup {
     html! {
         section aria-labelledby="live" {
             h2 #live { "The teapot in any number format" }
@@ -119,7 +110,7 @@ fn live(verdicts: &[VerdictColor]) -> Markup {
             }
             p #told role="status" {}
             ul.legend aria-label="Colors" {
-                @for VerdictColor { words, color: [r, g, b] } in verdicts.iter().rev().take(4) {
+                @for (words, [r, g, b]) in PixelVerdict::VARIANTS.iter().rev().take(4).map(|v| (v.words(), v.color())) {
                     li { span.swatch aria-hidden="true" style=(format!("background:#{r:02x}{g:02x}{b:02x}")) {} (words) }
                 }
             }

@@ -12,9 +12,8 @@ mod program_cases;
 mod programs;
 mod teapot;
 
-use self::arithmetic::Arithmetic;
-use self::markup::PageData;
-use self::programs::PagePrograms;
+use serde_json::json;
+
 use self::teapot::Teapot;
 use crate::report::not_encoded;
 use crate::study::{ProgressFn, StudyError};
@@ -32,12 +31,12 @@ pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<St
     let emulator = emulator.map(own::Emulator::new).transpose();
     let emulator = emulator.map_err(|error| not_encoded("gzip", error))?;
     progress("arithmetic", 0, 3);
-    let arithmetic = Arithmetic::compute();
+    let arithmetic = arithmetic::arithmetic();
     progress("the teapot", 1, 3);
     let teapot = Teapot::compute()?;
     progress("programs", 2, 3);
-    let programs = PagePrograms::compute()?;
-    let data = PageData { version: env!("CARGO_PKG_VERSION"), arithmetic, teapot, programs };
-    let json = serde_json::to_string(&data).map_err(|error| not_encoded("JSON", error))?;
-    Ok(markup::html(&data, &json, emulator.as_ref()))
+    let programs = programs::programs()?;
+    let version = env!("CARGO_PKG_VERSION");
+    let data = json!({ "version": version, "arithmetic": arithmetic, "teapot": teapot, "programs": programs });
+    Ok(markup::html(version, &teapot.views, &data.to_string(), emulator.as_ref()))
 }

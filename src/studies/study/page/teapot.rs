@@ -11,6 +11,7 @@ use refsim::machine::ExecutorKind;
 use refsim::num::NumberOperation;
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use serde::Serialize;
+use serde_json::{Value, json};
 use strum::VariantArray as _;
 
 use super::encode::{base64, base64_words};
@@ -45,22 +46,12 @@ pub(super) struct Teapot {
     shaders: [String; 2],
     positions: String,
     triangles: String,
-    fixed: MachineProgram,
-    float: MachineProgram,
+    /// Programs for any format of a kind ([`machine_program`]).
+    fixed: Value,
+    float: Value,
     pub(super) views: Vec<FixedView>,
-    pub(super) verdicts: Vec<VerdictColor>,
-}
-
-/// An intersection program for any format of its kind, in the machine's code.
-#[derive(Debug, Serialize)]
-struct MachineProgram {
-    name: &'static str,
-    words: Vec<u32>,
-    slots: usize,
-    /// Words that hold 1 in the register format.
-    ones: Vec<usize>,
-    /// Words that hold 1 / `t_max`.
-    depth_scales: Vec<usize>,
+    /// Words and color of every verdict.
+    verdicts: Vec<Value>,
 }
 
 #[derive(Debug, Serialize)]
@@ -88,12 +79,6 @@ pub(super) struct FixedPicture {
     pub(super) png: String,
 }
 
-#[derive(Debug, Serialize)]
-pub(super) struct VerdictColor {
-    pub(super) words: &'static str,
-    pub(super) color: [u8; 3],
-}
-
 impl Teapot {
     pub(super) fn compute() -> Result<Self, StudyError> {
         let mesh = teapot(TESSELLATION)
@@ -101,7 +86,7 @@ impl Teapot {
         let tracer = Tracer::new(&mesh);
         let views = VIEWS.map(|(name, eye, target)| FixedView::trace(name, eye, target, &mesh, &tracer));
         let [(fixed, fixed_parts), (float, float_parts)] =
-            [MachineProgram::for_formats_like("s3.12", "s3.13")?, MachineProgram::for_formats_like("e7m16", "e7m16")?];
+            [machine_program("s3.12", "s3.13")?, machine_program("e7m16", "e7m16")?];
         Ok(Self {
             side: SIDE,
             tan_half_height: TAN_HALF_HEIGHT,
@@ -113,24 +98,25 @@ impl Teapot {
             views: views.into_iter().collect::<Result<_, _>>()?,
             verdicts: PixelVerdict::VARIANTS
                 .iter()
-                .map(|v| VerdictColor { words: v.words(), color: v.color() })
+                .map(|v| json!({ "words": v.words(), "color": v.color() }))
                 .collect(),
         })
     }
 }
 
-impl MachineProgram {
-    /// The program of a format, with the words that differ in `other`, a format in which 1 has another pattern.
-    fn for_formats_like(format: &str, other: &str) -> Result<(Self, Parts), StudyError> {
-        let (name, code) = microcode(format, 0.5)?;
-        let differing = |other: &Microcode| {
-            let words = code.words.iter().zip(&other.words).enumerate();
-            words.filter(|(_, (a, b))| a != b).map(|(at, _)| at).collect::<Vec<_>>()
-        };
-        let ones = differing(&microcode(other, 0.5)?.1);
-        let depth_scales = differing(&microcode(format, 0.25)?.1);
-        Ok((Self { name, words: code.words.clone(), slots: code.slots, ones, depth_scales }, code.parts))
-    }
+/// The intersection program of a format in the machine's code. `ones` are the words that hold 1 in the register format:
+/// they differ in `other`, a format in which 1 has another pattern. `depth_scales` are the words that hold 1 / `t_max`.
+fn machine_program(format: &str, other: &str) -> Result<(Value, Parts), StudyError> {
+    let (name, code) = microcode(format, 0.5)?;
+    let differing = |other: &Microcode| {
+        let words = code.words.iter().zip(&other.words).enumerate();
+        words.filter(|(_, (a, b))| a != b).map(|(at, _)| at).collect::<Vec<_>>()
+    };
+    let ones = differing(&microcode(other, 0.5)?.1);
+    let depth_scales = differing(&microcode(format, 0.25)?.1);
+    let (words, slots) = (&code.words, code.slots);
+    let made = json!({ "name": name, "words": words, "slots": slots, "ones": ones, "depth_scales": depth_scales });
+    Ok((made, code.parts))
 }
 
 /// The intersection program of a device without limits, for eye rays and front faces.

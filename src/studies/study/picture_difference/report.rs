@@ -1,5 +1,7 @@
 //! Tables, maps and page of the study.
 
+use std::cmp::Reverse;
+
 use serde_json::json;
 
 use super::compare::{DifferenceOutcome, PerceptualDifference, PictureDifference};
@@ -110,7 +112,7 @@ fn maps(found: &mut Findings, study: &PictureDifference, outcome: &DifferenceOut
     }
     let (what, values) = match &outcome.perceptual {
         Some(perceptual) => ("luminance".to_owned(), perceptual.luminance.clone()),
-        None => worst_channel(outcome),
+        None => most_differing(outcome),
     };
     let scale = study.options.scale.unwrap_or_else(|| usual_scale(&values));
     let ends = shown(scale, Quantity::Error);
@@ -144,16 +146,11 @@ fn usual_scale(values: &[f64]) -> f64 {
     sizes.get((sizes.len() * 99).div_ceil(100).saturating_sub(1)).copied().unwrap_or(1.0)
 }
 
-/// Float channel with the largest difference, otherwise the first.
-fn worst_channel(outcome: &DifferenceOutcome) -> (String, Vec<f64>) {
-    let mut place = 0;
-    for (at, channel) in outcome.channels.iter().enumerate() {
-        if channel.differing > outcome.channels[place].differing {
-            place = at;
-        }
-    }
-    let channel = outcome.signed.get(place);
-    channel.map_or_else(Default::default, |(name, values)| {
+/// The channel in which most samples differ, the first on a tie.
+fn most_differing(outcome: &DifferenceOutcome) -> (String, Vec<f64>) {
+    let channels = outcome.channels.iter().zip(&outcome.signed);
+    let most = channels.min_by_key(|(channel, _)| Reverse(channel.differing));
+    most.map_or_else(Default::default, |(_, (name, values))| {
         (format!("channel {name}"), values.iter().map(|&value| f64::from(value)).collect())
     })
 }

@@ -43,14 +43,49 @@ fn eight_bit_sums_drift_on_hopper_and_promotion_helps() {
     assert!(rows.iter().take(3).all(|row| number(row, "mean") < 0.0), "cut sums are too small");
 }
 
+/// Product of a row and a column.
+fn of_vectors(unit: &str, a: &[f64], b: &[f64]) -> MatrixProduct {
+    let mut study = product(&[unit], [1, 1, 1]);
+    for (factor, (shape, values)) in study.factors.iter_mut().zip([([1, a.len()], a), ([b.len(), 1], b)]) {
+        factor.data = NumbersOrCodes::Numbers(NumberArray { shape: shape.to_vec(), values: values.to_vec() });
+    }
+    study
+}
+
+/// By exact arithmetic: 1.25 + 2^-40 is above the tie between 1 and 1.5, the scale of 1e300 is 2^127 and its element 6,
+/// and the square of the double 1/3 is not a double.
+#[test]
+fn numbers_are_rounded_once_and_doubles_kept() {
+    let result = |unit: &str, a: &[f64], b: &[f64]| {
+        let study = of_vectors(unit, a, b);
+        let files = StudyFiles::of(&study);
+        let data = &files.bytes(&format!("{}.npy", study.units[0].name))[128..];
+        let value = match data.len() {
+            8 => f64::from_le_bytes(data.try_into().expect("eight bytes")),
+            _ => f64::from(f32::from_le_bytes(data.try_into().expect("four bytes"))),
+        };
+        (value, number(&files.rows("errors.csv")[0], "differing"))
+    };
+    let tie = 1.25 + power_of_two(-40);
+    assert_eq!(result("blackwell-mxf4", &[tie, 6.0], &[1.0, 0.0]), (1.5, 0.0));
+    assert_eq!(result("blackwell-mxf4", &[1e300], &[power_of_two(-100)]).0, 1.5 * power_of_two(29));
+    assert_eq!(result("fma-f64", &[1.0 / 3.0], &[1.0 / 3.0]), (1.0 / 9.0, 1.0));
+}
+
+/// A result of 0 in place of a number is too small, whatever the sign of the number.
+#[test]
+fn the_mean_error_of_lost_results_is_negative() {
+    for small in [power_of_two(-20), -power_of_two(-20)] {
+        let rows = StudyFiles::of(&of_vectors("volta-f16-f16", &[small], &[power_of_two(-20)])).rows("errors.csv");
+        assert_eq!(number(&rows[0], "mean"), -1.0, "{small}");
+    }
+}
+
 /// Elements that are infinite or NaN are counted, and an infinite sum is the exact one.
 #[test]
 fn what_is_not_finite_is_said() {
     for value in [f64::NAN, f64::INFINITY] {
-        let mut study = product(&["hopper-f16"], [1, 2, 1]);
-        for (factor, (shape, values)) in study.factors.iter_mut().zip([([1, 2], [value, 1.0]), ([2, 1], [1.0, 1.0])]) {
-            factor.data = NumbersOrCodes::Numbers(NumberArray { shape: shape.to_vec(), values: values.to_vec() });
-        }
+        let study = of_vectors("hopper-f16", &[value, 1.0], &[1.0, 1.0]);
         let reference = "the exact product of the quantised operands";
         let excluded = format!(
             "1 of 1 elements are infinite or NaN in the result of hopper_f16_f32 with one accumulator or in \

@@ -1,10 +1,11 @@
-//! Enclosures of `2^f` and `log2 m`: fast in machine words, and with arbitrary precision.
+//! Enclosures of `2^f` and `log2 m`, fast in machine words and with arbitrary precision, and of sine and cosine.
 //!
 //! Every step truncates, so the lower end is a lower bound; the upper end adds the bound on the truncation error that
 //! each function states.
 
 use num_bigint::{BigInt, BigUint};
-use num_traits::One;
+
+use super::series;
 
 /// A value strictly between `low * 2^exp` and `high * 2^exp`, with `high - low` at least 2; or exactly `low * 2^exp`,
 /// if both are equal.
@@ -50,11 +51,9 @@ pub(super) fn exp2_quick(sign: bool, sig: u64, exp: i32, den: u32) -> Enclosure<
 
 /// Like [`exp2_quick`], but with arbitrary precision, in units of `2^-places`.
 ///
-/// Truncation error in units of `2^-(places + 32)`: one per bit of ln 2, three in `t`, four per term of the series.
-/// With fewer than `2^13` bits and terms the total is below `2^20`, a small part of one unit of `2^-places`.
+/// Truncation error in units of `2^-(places + 32)`: four in `t`, four per term of the series.
 pub(super) fn exp2_long(sign: bool, sig: u64, exp: i32, den: u32, places: u32) -> Enclosure<BigInt> {
     let bits = places + GUARD;
-    let one = BigInt::one() << bits;
     let signed = if sign { -BigInt::from(sig) } else { BigInt::from(sig) };
     // Arithmetic shifts and masks of a two's complement BigInt round toward minus infinity.
     let shift = i64::from(bits) + i64::from(exp);
@@ -62,24 +61,25 @@ pub(super) fn exp2_long(sign: bool, sig: u64, exp: i32, den: u32, places: u32) -
     // A quotient rounds toward zero.
     let x = if sign { (x - (den - 1)) / den } else { x / den };
     let f = &x - ((&x >> bits) << bits);
-    let t = (f * ln2(bits)) >> bits;
-    let (mut sum, mut term, mut k) = (one.clone(), one, 1u32);
-    loop {
-        term = ((term * &t) >> bits) / k;
-        if term == BigInt::ZERO {
-            break;
-        }
-        sum += &term;
-        k += 1;
-    }
-    let low = sum >> GUARD;
-    Enclosure { high: &low + 2, low, exp: -places.cast_signed() }
+    let t = (f * series::ln_2(bits.into())) >> bits;
+    enclosed(series::exp(&t, bits.into()), places)
 }
 
-/// ln 2 = sum over k of `1/(k 2^k)`, in units of `2^-bits`.
-fn ln2(bits: u32) -> BigInt {
-    let one = BigInt::one() << bits;
-    (1..=bits).map(|k| (&one >> k) / k).sum()
+/// `cos x` or `sin x` for `x = (-1)^sign * sig * 2^exp / den`, in units of `2^-places`.
+pub(super) fn circular(sine: bool, sign: bool, sig: u64, exp: i32, den: u32, places: u32) -> Enclosure<BigInt> {
+    let bits = places + GUARD;
+    let wide = bits + u32::try_from(exp + 64).unwrap_or(0);
+    let signed = if sign { -BigInt::from(sig) } else { BigInt::from(sig) };
+    let shift = i64::from(wide) + i64::from(exp);
+    let shifted = if shift >= 0 { signed << shift } else { signed >> -shift };
+    enclosed(series::circular(sine, &(shifted / den), wide.into(), bits.into()), places)
+}
+
+/// A sum in units of `2^-(places + 32)`. Its error is below `2^20` units, a small part of one unit of `2^-places`: a
+/// series has fewer than `2^13` terms.
+fn enclosed(sum: BigInt, places: u32) -> Enclosure<BigInt> {
+    let low: BigInt = (sum >> GUARD) - 1;
+    Enclosure { high: &low + 3, low, exp: -places.cast_signed() }
 }
 
 /// `log2` of `sig` scaled into [1, 2), in units of `2^-60`.

@@ -233,6 +233,12 @@ fn operations_are_named_in_full_and_inputs_can_be_read_back() {
         let values: Vec<f64> = worst.split(' ').filter_map(value).collect();
         assert!(matches!(values[..], [x, y] if x >= 1000.0 && y <= 1e-9), "{worst}");
     }
+    // The result is `y`; `z` is not part of it.
+    let mut study = formula("(FPCore (x) (let* ([y (+ x 1/3)] [z (* y y)]) y))", &["x=0..1"]);
+    study.samples = 40;
+    let document = findings(&study).plain_document();
+    let rows = document["operations"].as_array().expect("rows").iter();
+    assert_eq!(rows.map(|row| row["operation"].clone()).collect::<Vec<_>>(), ["1/3", "(+ x 1/3)"]);
     let known = formula("(true && !false ? π : 0) + x", &[]);
     let [exact, _] = known.results(known.taken().0[0], None, &[0]).expect("a result");
     assert_eq!(f64::from_bits(exact), std::f64::consts::PI);

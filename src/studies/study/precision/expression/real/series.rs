@@ -1,17 +1,15 @@
 //! Enclosures of elementary functions at a dyadic point, by series in integers.
 //!
-//! Values are integers in units of `2^-places`; every division and shift truncates, so each step errs by less than two
-//! units. All functions work with [`GUARD`] more bits than their result needs, and widen the result by `2^ERROR` units:
-//! a series has at most one term per bit, there are fewer than `2^14` bits, and a term errs by at most eight units.
-
-use std::cell::RefCell;
-use std::collections::BTreeMap;
+//! Values are integers in units of `2^-places`, as in [`refsim::num::series`]. All functions work with [`GUARD`] more
+//! bits than their result needs, and widen the result by `2^ERROR` units: a series has at most one term per bit, there
+//! are fewer than `2^14` bits, and a term errs by at most eight units.
 
 use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_traits::{One, Zero};
+use refsim::num::series;
 
-use super::dyadic::{Dyadic, End, LIMIT, shifted};
+use super::dyadic::{Dyadic, End, LIMIT};
 use super::interval::RealInterval;
 
 /// Additional bits for intermediate results.
@@ -21,51 +19,14 @@ const ERROR: u32 = 22;
 /// Largest magnitude of angles, as a power of two.
 const MAX_ANGLE: i64 = 1 << 15;
 
-thread_local! {
-    /// ln 2 and pi by number of fraction bits, rounded down, with an error of at most one unit.
-    static KNOWN: RefCell<BTreeMap<(bool, i64), BigInt>> = const { RefCell::new(BTreeMap::new()) };
-}
-
-/// `sum of coefficient * f(1/n)` with `f` the arc tangent, or the inverse hyperbolic tangent, in units of `2^-places`.
-fn machin(terms: [(i32, u32); 3], hyperbolic: bool, places: i64) -> BigInt {
-    let spare = 32;
-    let sum = terms.into_iter().fold(BigInt::zero(), |sum, (coefficient, n)| {
-        let mut power = (BigInt::one() << (places + spare).unsigned_abs()) / n;
-        let (mut series, mut k) = (power.clone(), 1u32);
-        while !power.is_zero() {
-            power = if hyperbolic { power / (n * n) } else { -power / (n * n) };
-            k += 2;
-            series += &power / k;
-        }
-        sum + series * coefficient
-    });
-    sum >> spare
-}
-
-fn known(is_pi: bool, wanted: i64) -> BigInt {
-    let places = (wanted + 63) & !63;
-    let kept = KNOWN.with_borrow(|known| known.get(&(is_pi, places)).cloned());
-    let value = kept.unwrap_or_else(|| {
-        let made = match is_pi {
-            true => machin([(16, 5), (-4, 239), (0, 1000)], false, places),
-            false => machin([(18, 26), (-2, 4801), (8, 8749)], true, places),
-        };
-        KNOWN.with_borrow_mut(|known| known.insert((is_pi, places), made.clone()));
-        made
-    });
-    value >> (places - wanted).unsigned_abs()
-}
-
 /// pi, to about `bits` bits.
 pub(super) fn pi(bits: u64) -> RealInterval {
-    let places = bits.cast_signed();
-    RealInterval::around(&known(true, places), 2, -places)
+    RealInterval::around(&series::pi(bits), 2, -bits.cast_signed())
 }
 
 /// ln 2, to about `bits` bits.
 pub(super) fn ln_2(bits: u64) -> RealInterval {
-    let places = bits.cast_signed();
-    RealInterval::around(&known(false, places), 2, -places)
+    RealInterval::around(&series::ln_2(bits), 2, -bits.cast_signed())
 }
 
 fn enclosed(sum: &BigInt, places: i64) -> RealInterval {
@@ -98,14 +59,8 @@ pub(super) fn exp(x: &Dyadic, bits: u64) -> RealInterval {
     let places = bits.cast_signed() + GUARD;
     // A multiple of ln 2 has an error of as many units as the multiple counts.
     let wide = places + top.max(0);
-    let (whole, rest) = x.floor_at(wide).div_mod_floor(&known(false, wide));
-    let rest = rest >> (wide - places).unsigned_abs();
-    let (mut term, mut sum, mut k) = (BigInt::one() << places.unsigned_abs(), BigInt::zero(), 1u32);
-    while !term.is_zero() {
-        sum += &term;
-        term = ((term * &rest) >> places.unsigned_abs()) / k;
-        k += 1;
-    }
+    let (whole, rest) = x.floor_at(wide).div_mod_floor(&series::ln_2(wide.unsigned_abs()));
+    let sum = series::exp(&(rest >> (wide - places).unsigned_abs()), places.unsigned_abs());
     enclosed(&sum, places).scaled(i64::try_from(whole).unwrap_or(LIMIT))
 }
 
@@ -132,7 +87,7 @@ pub(super) fn log(x: &Dyadic, bits: u64) -> RealInterval {
         k += 2;
     }
     // 64 more bits, because ln 2 is multiplied by a factor below 2^61.
-    let shift: BigInt = (known(false, places + 64) * whole) >> 64u32;
+    let shift: BigInt = (series::ln_2((places + 64).unsigned_abs()) * whole) >> 64u32;
     enclosed(&(sum * 2 + shift), places)
 }
 
@@ -168,7 +123,7 @@ pub(super) fn atan(x: &Dyadic, bits: u64) -> RealInterval {
     }
     let mut angle = sum << 4u32;
     if is_large {
-        angle = (known(true, places) >> 1u32) - angle;
+        angle = (series::pi(places.unsigned_abs()) >> 1u32) - angle;
     }
     enclosed(&if x.is_negative() { -angle } else { angle }, places)
 }
@@ -192,20 +147,6 @@ pub(super) fn circular(sine: bool, x: &Dyadic, bits: u64) -> RealInterval {
         return if sine { below(x, bits) } else { near_one(-1, 0, 2 * top, bits) };
     }
     let places = precision + GUARD + if sine { (-top).max(0) } else { 0 };
-    // A multiple of pi/2 has an error of as many units as the multiple counts.
     let wide = places + top.max(0) + 4;
-    let quarter = known(true, wide) >> 1u32;
-    let (turns, rest) = (x.floor_at(wide) + (&quarter >> 1u32)).div_mod_floor(&quarter);
-    let rest = shifted(&(rest - (&quarter >> 1u32)), places - wide);
-    let quadrant = (&turns & BigInt::from(3)).try_into().unwrap_or(0u32) + u32::from(!sine);
-    let square: BigInt = (&rest * &rest) >> places.unsigned_abs();
-    let is_odd = quadrant % 2 == 0;
-    let mut term = if is_odd { rest } else { BigInt::one() << places.unsigned_abs() };
-    let (mut sum, mut k) = (term.clone(), if is_odd { 2u32 } else { 1 });
-    while !term.is_zero() {
-        term = -((term * &square) >> places.unsigned_abs()) / (k * (k + 1));
-        sum += &term;
-        k += 2;
-    }
-    enclosed(&if quadrant % 4 >= 2 { -sum } else { sum }, places)
+    enclosed(&series::circular(sine, &x.floor_at(wide), wide.unsigned_abs(), places.unsigned_abs()), places)
 }

@@ -161,10 +161,8 @@ impl<'a> GraphBuilder<'a> {
         }
         let root = translator.typed(tree, is_truth)?;
         let mut nodes = translator.nodes;
-        // The result must be the last node: if it is a name for an earlier node, that node is copied to the end.
-        if root + 1 < nodes.len() {
-            nodes.push(nodes[root].clone());
-        }
+        // The result is the last node; what follows it is not used.
+        nodes.truncate(root + 1);
         Ok(Graph(nodes))
     }
 
