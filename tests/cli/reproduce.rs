@@ -17,6 +17,21 @@ fn an_unknown_entry_is_refused_before_anything_is_written() {
     assert!(slip.stderr.contains("did you mean `cpca-figure-7`?"), "{}", slip.stderr);
 }
 
+/// A list computes nothing, so it has no folder and no size; an entry without a record has no run to repeat.
+#[test]
+fn options_without_effect_are_refused() {
+    for (options, reason) in [
+        (["--list", "--full-size"], "cannot be used with"),
+        (["--list", "--out=found"], "cannot be used with"),
+        (["cpca-appendix", "--full-size"], "expected a recorded entry"),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let ran = crossbar_in(folder.path(), &[&["reproduce"], &options[..]].concat(), "");
+        assert_eq!(ran.code, Some(2), "{options:?}: {}", ran.stdout);
+        assert!(ran.stderr.contains(reason), "{options:?}: {}", ran.stderr);
+    }
+}
+
 /// Snapshot of the figures, which reveals changes of the model.
 #[test]
 fn the_rows_are_these() {

@@ -67,12 +67,18 @@ pub struct Parameters {
 
 /// Computes entries, one after the other; if an entry has a record ([`recorded`]), it is computed only at full size.
 /// Renderings and runs that several entries of a paper need are made once. `progress` is called with the name of each
-/// entry. Fails with the error of the first failing entry, or if a record is malformed.
+/// entry. Fails with the error of the first failing entry, if a record is malformed, and if `full_size` is set for
+/// entries none of which has a record.
 pub fn reproduce(
     entries: &[ReproduceEntry],
     full_size: bool,
     progress: &mut ProgressFn<'_>,
 ) -> Result<Reproduced, StudyError> {
+    if full_size && entries.iter().all(|entry| entry.record.is_none()) {
+        let what = "expected a recorded entry, since only recorded runs can be repeated at full size";
+        let help = "without the option, these entries are computed in full";
+        return Err(StudyError::new("reproduce::no_record", what).with_help(help));
+    }
     let mut found = Reproduced::new();
     for of_paper in entries.chunk_by(|one, next| one.paper == next.paper) {
         let shared = Shared::new(ModelSize::Printed);

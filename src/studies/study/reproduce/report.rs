@@ -169,7 +169,7 @@ fn as_recorded(found: &Reproduced) -> bool {
     !all_rows(found).any(PaperRow::differs)
 }
 const HOW: &str = "Each row compares a figure of a paper with our value. The figure is printed, implied by printed figures, or inferred by us. Every \
-    bound has a date: all were restated on 2026-11-26, before the recorded runs, and the data list later changes. A row within its bound is \
+    bound has a date: most were restated on 2026-11-26, before the recorded runs, and the data list later changes and additions. A row within its bound is \
     \"predicted\" if our value is drawn, solved, counted or timed, and the bound is numerical: {} % of the paper's value or of its gain over the \
     host alone, or every digit for counts and solutions. It is \"order only\" if the bound only says which of two values is larger, \"by \
     construction\" if the bound admits every value that the computation can give, and \"consistency of print\" if our value follows from the paper's \
