@@ -24,14 +24,11 @@ mod record;
 pub mod report;
 mod row;
 mod shared;
-mod stand_ins;
 mod subsurface;
-mod summary;
 
 use crate::report::Findings;
 use crate::study::{ProgressFn, Study};
-use shared::Shared;
-use stand_ins::ModelSize;
+use shared::{ModelSize, Shared};
 
 use crate::study::StudyError;
 pub use entries::{ENTRIES, choose, timed};
@@ -51,9 +48,9 @@ pub use row::{
 pub mod tested {
     pub use super::all_frequency::bunny_in_pieces;
     pub use super::cpca::{crossings, reaching};
+    pub use super::overview::summary_lines;
     pub use super::paper::parse_figures;
     pub use super::record::compared;
-    pub use super::summary::summary_lines;
 }
 
 /// Parameters of the study.

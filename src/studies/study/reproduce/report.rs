@@ -3,9 +3,9 @@
 use serde_json::json;
 
 pub use super::overview::evidence_line;
+use super::overview::summary_lines;
 use super::overview::{overview, rows as all_rows, tally};
-use super::summary::summary_lines;
-use super::{Bound, Judgement, PaperFigure, PaperRow, Reproduced, StudyError, figures, number, paragraph};
+use super::{Bound, Judgement, PaperFigure, PaperRow, Reproduced, StudyError, figures, paragraph};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 
 const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% source \
@@ -188,7 +188,7 @@ pub fn findings(found: &Reproduced) -> Findings {
     overview(&mut all, found);
     let lines = summary_lines(found);
     all.summary_lines(lines.clone());
-    let how = paragraph(HOW, [number(100.0 * Bound::SHARE, 0)]);
+    let how = paragraph(HOW, &[&(100.0 * Bound::SHARE)]);
     all.keep_table(FoundTable::from(tally_table(found)).csv("tally").field("tally"));
     all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
     all.heading("All rows");

@@ -2,10 +2,9 @@
 
 use refsim::device::Profile;
 
-use super::drawn::DrawnClusters;
-use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
+use super::rates::{DrawnClusters, OWN_INPUTS, modelled_from_clusters, rate_row};
 use super::signals::{BIRD, iterative};
-use super::{CARD, EntryFindings, Shared, StudyError, number, paragraph, printed, solved};
+use super::{CARD, EntryFindings, Shared, StudyError, paragraph, printed, solved};
 use crate::card::frame_time::FrameTime;
 use crate::clustering::{Clustering, CpcaMethod};
 use crate::cpca::on_card::model::TransferSize;
@@ -60,12 +59,11 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     // The rate of both together is the one in Table 1.
     rows.extend([rate_row("rate-pca", &times[0], OWN_INPUTS)?, rate_row("rate-vq", &times[1], OWN_INPUTS)?]);
-    let stored = ENCODINGS.map(|(_, clusters, vectors, _)| {
+    let [pca, vq, cpca] = ENCODINGS.map(|(_, clusters, vectors, _)| {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
-        number(size.stored_numbers() as f64 / 1e6, 2)
+        (size.stored_numbers() as f64 / 1e6, 2)
     });
-    let sizes = [points, n].map(|count| number(count as f64, 0));
-    Ok(EntryFindings::new([paragraph(HOW, stored.into_iter().chain(sizes))], rows, [QUESTION], [table]))
+    Ok(EntryFindings::new([paragraph(HOW, &[&pca, &vq, &cpca, &points, &n])], rows, [QUESTION], [table]))
 }
 
 fn encodings(clusterings: &[&Clustering; 3], errors: [f64; 3], rates: [f64; 3]) -> Result<Table, StudyError> {

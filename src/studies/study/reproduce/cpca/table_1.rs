@@ -2,10 +2,11 @@
 
 use refsim::device::Profile;
 
-use super::drawn::DrawnClusters;
-use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal, time_cells};
+use super::rates::{
+    CONTRADICTORY, DrawnClusters, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal, time_cells,
+};
 use super::signals::{SIGNALS, iterative};
-use super::{CARD, EntryFindings, PaperRow, Shared, StudyError, ends, number, paragraph, printed, solved};
+use super::{CARD, EntryFindings, PaperRow, Shared, StudyError, ends, paragraph, printed, solved};
 use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::PaperFigure;
@@ -72,8 +73,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let (timed, times) = rates(shared)?;
     rows.extend(timed);
+    let [least, most] = ends(counts.into_iter());
     Ok(EntryFindings::new(
-        [paragraph(HOW, ends(counts.into_iter()).map(|count| number(count, 0))), paragraph(TIMES, [CARD.to_owned()])],
+        [paragraph(HOW, &[&least, &most]), paragraph(TIMES, &[&CARD])],
         rows,
         [QUESTION],
         [table, times],
