@@ -138,27 +138,22 @@ pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
 }
 
+/// Names of the two printed rates of the Buddha with anisotropic gloss: in Table 1, and in section 7 with both
+/// optimisations. They contradict each other: signal, clusters, vectors, card and host are the same.
+const CONTRADICTORY: [&str; 2] = ["rate-buddha-gloss-anis", "rate-buddha-both"];
+
 pub(super) fn rate_row(id: &str, time: &FrameTime, from: &'static str) -> Result<PaperRow, StudyError> {
-    ratio_row(id, (time.into(), time.per_second()), from)
+    let row = ratio_row(id, (time.into(), time.per_second()), from)?;
+    let Some(at) = CONTRADICTORY.iter().position(|known| *known == id) else { return Ok(row) };
+    let other = printed(&format!("cpca/{}", CONTRADICTORY[1 - at]))?;
+    let how = format!("the same signal, clusters and card in {}", other.place);
+    let contradiction = Contradiction::between(&row.target, other.value, &how);
+    Ok(row.contradicted(contradiction))
 }
 
 /// Row for a rate, or for a ratio of two rates, with its method.
 pub(super) fn ratio_row(id: &str, (method, ours): (Method, f64), from: &'static str) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (CARD, method), (ours, Dependence::Predicted { from }))
-}
-
-/// Names of the two printed rates of the Buddha with anisotropic gloss: in Table 1, and in section 7 with both
-/// optimisations.
-pub(super) const CONTRADICTORY: [&str; 2] = ["rate-buddha-gloss-anis", "rate-buddha-both"];
-
-/// Contradiction between these two rates: signal, clusters, vectors, card and host are the same.
-pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, StudyError> {
-    let [table_1, section_7] = CONTRADICTORY;
-    let other = if id == table_1 { section_7 } else { table_1 };
-    let other = printed(&format!("cpca/{other}"))?;
-    let figure = printed(&format!("cpca/{id}"))?;
-    let how = format!("the same signal, clusters and card in {}", other.place);
-    Ok(Contradiction::between(figure, other.value, &how))
 }
 
 /// Rows for printed rates, and a table of the times of each unit. A signal is an index, a name, and its name in figure
@@ -182,7 +177,7 @@ pub(super) fn rates(
             let head = [name.into(), how.into(), Cell::decimals(overdraw, 3), Cell::decimals(row.target.value, 1)];
             let run = [time.vertices_run.into(), Cell::ratio(mesh.run_per_triangle)];
             table.push(head.into_iter().chain(time_cells(&time)).chain(run));
-            rows.push(if id == CONTRADICTORY[1] { row.contradicted(same_signal(&id)?) } else { row });
+            rows.push(row);
         }
     }
     Ok((rows, table))

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::cells::{coded, decoded};
-use super::{RecordMade, RecordStatus};
+use super::made::{RecordMade, RecordStatus};
 use crate::report::Table;
 use crate::study::reproduce::{
     Contradiction, Dependence, EntryFindings, Method, PaperRow, RowSource, StudyError, equations, paper_row,

@@ -11,8 +11,8 @@ mod verdict;
 
 pub use figure::{Bound, Contradiction, Judgement, MissClass, Origin, PaperEquation, PaperFigure};
 pub use method::{Dependence, Method};
-pub use sweep::{Explanation, Setting, Sweep};
-pub use verdict::RowVerdict;
+pub use sweep::{Setting, Sweep};
+pub use verdict::{Explanation, RowVerdict};
 
 use super::prose::ends;
 
