@@ -3,7 +3,7 @@
 use crossbar::study::reproduce::report::{evidence_line, notes};
 use crossbar::study::reproduce::{Bound, Judgement, RowSource, RowVerdict, figures, timed};
 
-use super::{FOUND, all, findings, row};
+use super::{FOUND, all, row};
 
 /// Every judged figure has exactly one row. Figures that are not judged are listed with the reason.
 #[test]
