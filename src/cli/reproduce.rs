@@ -48,7 +48,7 @@ pub(super) struct Args {
     entries: Vec<String>,
 
     /// List the entries, and compute nothing
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["full_size", "out"])]
     list: bool,
 
     /// Repeat recorded runs and compare them with their records; most runs take minutes, two take hours

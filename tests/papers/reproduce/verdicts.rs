@@ -1,9 +1,9 @@
-//! Reasons for a row's verdict: its source, its bound, its class, its explanation.
+//! Reasons for rows' verdicts: sources, bounds, classes, explanations.
 
 use crossbar::study::reproduce::report::{evidence_line, notes};
-use crossbar::study::reproduce::{Bound, Judgement, Origin, PaperRow, RowSource, RowVerdict, figures, timed};
+use crossbar::study::reproduce::{Bound, Judgement, RowSource, RowVerdict, figures, timed};
 
-use super::{FOUND, all, findings, row};
+use super::{FOUND, all, row};
 
 /// Every judged figure has exactly one row. Figures that are not judged are listed with the reason.
 #[test]
@@ -15,33 +15,6 @@ fn every_judged_figure_has_one_row() {
     judged.sort_unstable();
     rows.sort_unstable();
     assert_eq!(rows, judged);
-}
-
-/// A contradiction is computed from printed values and listed in the notes. In a contradictory row, our value is, under
-/// every reading, within the bound of the printed value or of the contradicting one; any other row outside its bound is
-/// missed and has a class.
-#[test]
-fn contradictions_come_with_their_computations() {
-    let notes = notes(&FOUND);
-    let mut counts = [[0; 2]; 2];
-    for row in all().filter(|row| row.contradiction().is_some()) {
-        let found = row.contradiction().expect("a computation");
-        let interval = |printed: f64| row.bound.interval(printed, row.target.rounding()).expect("a bound");
-        let near = |printed: f64| {
-            let [low, high] = interval(printed);
-            std::iter::once(&row.ours).chain(&row.readings).all(|ours| low <= *ours && *ours <= high)
-        };
-        let agrees = near(row.target.value) || found.value().is_some_and(near);
-        let expected = if agrees { RowVerdict::Contradictory } else { RowVerdict::Missed };
-        assert_eq!(row.verdict(), expected, "{}", row.target.id);
-        assert_eq!(row.missed().is_some(), !agrees, "{}", row.target.id);
-        counts[usize::from(agrees)][usize::from(found.value().is_some())] += 1;
-        let text = found.text();
-        assert!(text.contains(|c: char| c.is_ascii_digit()), "{text}");
-        assert!(notes.rows().iter().any(|note| note[1].text() == "contradictory" && note[2].text() == text), "{text}");
-    }
-    // Without a value: 15 pass times that contain waits, and one factor. With a value: ours agrees in 4 of 8.
-    assert_eq!(counts, [[15, 4], [1, 4]]);
 }
 
 #[test]
@@ -78,29 +51,6 @@ fn the_parts_of_the_tally_add_up() {
     assert_eq!(numbers(recorded), [of_tally().filter(|row| row.source != RowSource::Computed).count()]);
 }
 
-/// Numbers that are neither printed nor taken from our own model are marked.
-#[test]
-fn origins_are_said() {
-    let implied = &row("subsurface/lookups-fixed").target;
-    assert_eq!((implied.text(), &implied.origin), ("20 (implied)".to_owned(), &Origin::Implied("1.25 L".to_owned())));
-    assert!(matches!(row("cpca/figure-6").target.origin, Origin::Inferred(_)));
-    for id in ["radiosity/jacobi-operations", "radiosity/gauss-seidel-operations"] {
-        assert!(row(id).is_calibrated(), "N was chosen from {id}");
-    }
-}
-
-/// A calibrated row is not a success, and calibration does not exempt it from its bound.
-#[test]
-fn calibration_hides_no_miss() {
-    let radeon: Vec<_> =
-        findings("ray-engine-radeon-8500").rows.iter().map(|row| (row.dependence.to_string(), row.verdict())).collect();
-    let calibrated = || "calibrated".to_owned();
-    assert_eq!(radeon, [(); 2].map(|()| (calibrated(), RowVerdict::Calibrated)));
-    let mut calibrated = all().filter(|row| row.is_calibrated());
-    let verdicts = [RowVerdict::Calibrated, RowVerdict::Missed, RowVerdict::Contradictory];
-    assert!(calibrated.all(|row| verdicts.contains(&row.verdict())));
-}
-
 /// Benches in modelled time measure the same quantities as rows.
 #[test]
 fn timed_work_has_the_times_of_its_rows() {
@@ -117,18 +67,6 @@ fn timed_work_has_the_times_of_its_rows() {
         };
         assert!((ours / row.ours - 1.0).abs() < 1e-9, "{}: {ours}, {}", work.figure, row.ours);
     }
-}
-
-/// The host alone, without any gain from a card, must fail every bound.
-#[test]
-fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
-    let alone = &findings("ray-engine-table-3").rows[0];
-    assert_eq!((alone.target.id.as_str(), alone.verdict()), ("ray-engine/host-alone", RowVerdict::Calibrated));
-    let entries = ["ray-engine-table-3", "ray-engine-table-4", "ray-engine-table-5"];
-    let rows = entries.iter().flat_map(|id| &findings(id).rows).filter(|row| row.target.unit == "rays/s");
-    let others: Vec<&PaperRow> = rows.filter(|row| row.target.id != alone.target.id).collect();
-    assert_eq!(others.len(), 8);
-    assert!(others.iter().all(|row| !row.admits(alone.ours)));
 }
 
 /// Each reason is listed once, with all its rows.

@@ -45,11 +45,11 @@ pub const ENTRIES: &[ReproduceEntry] = entries! {
         "Tests per second by number of triangles (Ray Engine, figure 7)";
     RayEngine ray_engine::table_1::findings, "ray-engine-tables-1-2",
         "Rays per second in five scenes, and the share of rays on the card (Ray Engine, tables 1 and 2)";
-    RayEngine ray_engine::table_3::findings, "ray-engine-table-3",
+    RayEngine ray_engine::tables::table_3, "ray-engine-table-3",
         "Speed-ups with a card, asynchronous read-back, or an infinitely fast card (Ray Engine, table 3)";
-    RayEngine ray_engine::table_4::findings, "ray-engine-table-4",
+    RayEngine ray_engine::tables::table_4, "ray-engine-table-4",
         "Speed-up by triangles per GPU cell (Ray Engine, table 4)";
-    RayEngine ray_engine::table_5::findings, "ray-engine-table-5", "Speed-up by rays per pass (Ray Engine, table 5)";
+    RayEngine ray_engine::tables::table_5, "ray-engine-table-5", "Speed-up by rays per pass (Ray Engine, table 5)";
     Radiosity radiosity::figure_3::findings, "radiosity-figure-3",
         "Residual of Jacobi and Gauss-Seidel by iteration (radiosity, figure 3)";
     Radiosity radiosity::rates::findings, "radiosity-rates",

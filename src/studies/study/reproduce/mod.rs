@@ -24,14 +24,11 @@ mod record;
 pub mod report;
 mod row;
 mod shared;
-mod stand_ins;
 mod subsurface;
-mod summary;
 
 use crate::report::Findings;
 use crate::study::{ProgressFn, Study};
-use shared::Shared;
-use stand_ins::ModelSize;
+use shared::{ModelSize, Shared};
 
 use crate::study::StudyError;
 pub use entries::{ENTRIES, choose, timed};
@@ -51,9 +48,9 @@ pub use row::{
 pub mod tested {
     pub use super::all_frequency::bunny_in_pieces;
     pub use super::cpca::{crossings, reaching};
+    pub use super::overview::summary_lines;
     pub use super::paper::parse_figures;
     pub use super::record::compared;
-    pub use super::summary::summary_lines;
 }
 
 /// Parameters of the study.
@@ -67,12 +64,18 @@ pub struct Parameters {
 
 /// Computes entries, one after the other; if an entry has a record ([`recorded`]), it is computed only at full size.
 /// Renderings and runs that several entries of a paper need are made once. `progress` is called with the name of each
-/// entry. Fails with the error of the first failing entry, or if a record is malformed.
+/// entry. Fails with the error of the first failing entry, if a record is malformed, and if `full_size` is set for
+/// entries none of which has a record.
 pub fn reproduce(
     entries: &[ReproduceEntry],
     full_size: bool,
     progress: &mut ProgressFn<'_>,
 ) -> Result<Reproduced, StudyError> {
+    if full_size && entries.iter().all(|entry| entry.record.is_none()) {
+        let what = "expected a recorded entry, since only recorded runs can be repeated at full size";
+        let help = "without the option, these entries are computed in full";
+        return Err(StudyError::new("reproduce::no_record", what).with_help(help));
+    }
     let mut found = Reproduced::new();
     for of_paper in entries.chunk_by(|one, next| one.paper == next.paper) {
         let shared = Shared::new(ModelSize::Printed);

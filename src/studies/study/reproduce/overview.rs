@@ -1,10 +1,10 @@
-//! Overview of all rows: conclusion and tally.
+//! Overview of all rows: conclusion, tally, and a line per paper.
 
 use strum::VariantArray as _;
 
-use super::{MissClass, PaperRow, Reproduced, RowSource, RowVerdict};
+use super::{EntryFindings, MissClass, Paper, PaperRow, ReproduceEntry, Reproduced, RowSource, RowVerdict};
 use crate::report::words::{counted, listed};
-use crate::report::{Findings, TallyEntry, Tone};
+use crate::report::{Findings, SummaryLine, TallyEntry, Tone};
 
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let rows: Vec<&PaperRow> = rows(found).collect();
@@ -111,4 +111,49 @@ fn classes(rows: &[&PaperRow]) -> Option<String> {
 fn differ(rows: &[&PaperRow]) -> Option<String> {
     let names: Vec<&str> = rows.iter().filter(|row| row.differs()).map(|row| row.target.id.as_str()).collect();
     (!names.is_empty()).then(|| format!("Values that differ from their records: {}.", names.join(", ")))
+}
+
+type Part = (ReproduceEntry, EntryFindings);
+
+/// Maximum number of entries in a line.
+const NAMED: usize = 3;
+
+/// One line per paper with an entry, each with the counts of its verdicts.
+pub fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
+    let line = |paper: &Paper| {
+        let parts: Vec<&Part> = found.iter().filter(|(entry, _)| entry.paper == *paper).collect();
+        let (first, _) = parts.first()?;
+        Some(SummaryLine {
+            title: capital(&paper.to_string()),
+            heading: first.title.to_owned(),
+            tally: tally(parts.iter().flat_map(|(_, found)| &found.rows)),
+            text: text(&parts),
+        })
+    };
+    Paper::VARIANTS.iter().filter_map(line).collect()
+}
+
+/// Sentence about the entries that have the most missed rows.
+fn text(parts: &[&Part]) -> String {
+    let mut worst: Vec<(usize, String)> = Vec::new();
+    for (entry, found) in parts {
+        let missed = found.rows.iter().filter(|row| row.verdict() == RowVerdict::Missed).count();
+        worst.push((missed, format!("{} ({missed} of {})", entry.id, found.rows.len())));
+    }
+    worst.retain(|(missed, _)| *missed > 0);
+    worst.sort_by_key(|(missed, _)| std::cmp::Reverse(*missed));
+    let names: Vec<&String> = worst.iter().take(NAMED).map(|(_, name)| name).collect();
+    let most = if worst.len() > NAMED { "Most missed rows are in" } else { "Rows are missed in" };
+    if parts.iter().all(|(_, found)| found.rows.is_empty()) {
+        String::new()
+    } else if names.is_empty() {
+        "No row is missed.".to_owned()
+    } else {
+        format!("{most} {}.", listed(&names))
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(rest).collect()
 }

@@ -3,9 +3,9 @@
 use serde_json::json;
 
 pub use super::overview::evidence_line;
+use super::overview::summary_lines;
 use super::overview::{overview, rows as all_rows, tally};
-use super::summary::summary_lines;
-use super::{Bound, Judgement, PaperFigure, PaperRow, Reproduced, StudyError, figures, number, paragraph};
+use super::{Bound, Judgement, PaperFigure, PaperRow, Reproduced, StudyError, figures, paragraph};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 
 const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% source \
@@ -169,7 +169,7 @@ fn as_recorded(found: &Reproduced) -> bool {
     !all_rows(found).any(PaperRow::differs)
 }
 const HOW: &str = "Each row compares a figure of a paper with our value. The figure is printed, implied by printed figures, or inferred by us. Every \
-    bound has a date: all were restated on 2026-11-26, before the recorded runs, and the data list later changes. A row within its bound is \
+    bound has a date: most were restated on 2026-11-26, before the recorded runs, and the data list later changes and additions. A row within its bound is \
     \"predicted\" if our value is drawn, solved, counted or timed, and the bound is numerical: {} % of the paper's value or of its gain over the \
     host alone, or every digit for counts and solutions. It is \"order only\" if the bound only says which of two values is larger, \"by \
     construction\" if the bound admits every value that the computation can give, and \"consistency of print\" if our value follows from the paper's \
@@ -188,7 +188,7 @@ pub fn findings(found: &Reproduced) -> Findings {
     overview(&mut all, found);
     let lines = summary_lines(found);
     all.summary_lines(lines.clone());
-    let how = paragraph(HOW, [number(100.0 * Bound::SHARE, 0)]);
+    let how = paragraph(HOW, &[&(100.0 * Bound::SHARE)]);
     all.keep_table(FoundTable::from(tally_table(found)).csv("tally").field("tally"));
     all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
     all.heading("All rows");

@@ -4,7 +4,7 @@
 use refsim::timing::host::HostOperation;
 
 use super::{
-    Dependence, EntryFindings, HOST, Method, RunResult, Shared, StudyError, number, paper_row, paragraph, printed_value,
+    Dependence, EntryFindings, HOST, Method, RunResult, Shared, StudyError, paper_row, paragraph, printed_value,
 };
 use crate::all_frequency::on_card::time::host_of_table_1;
 use crate::elementary::log10;
@@ -56,8 +56,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         let ours = (rate / (of_clusters + of_vertices), Dependence::Calibrated { on: RATE });
         rows.push(row(&format!("fps-alone-{column}"), ours)?);
     }
-    let numbers = [number((6 * NORMALS * NORMALS) as f64, 0), number(1e-9 * rate, 2)];
-    Ok(EntryFindings::new([paragraph(HOW, numbers)], rows, [QUESTION], []))
+    let how = paragraph(HOW, &[&(6 * NORMALS * NORMALS), &(1e-9 * rate, 2)]);
+    Ok(EntryFindings::new([how], rows, [QUESTION], []))
 }
 
 /// Minimum number of segments below the horizon of a normal, and the mean over all directions.

@@ -37,6 +37,12 @@ pub(super) fn bare(lobe: Lobe) -> Lobe {
     Lobe { denominators: Denominators::Product, fresnel: FresnelForm::Constant, shadowing: Shadowing::None, ..lobe }
 }
 
+/// Factors a reflectance by its singular vectors into `terms` terms.
+pub(super) fn factorization(lobe: &Lobe, terms: usize) -> Result<Factorization, StudyError> {
+    let table = FactorSampling::default().table(lobe, &mut |_, _| ()).on(HOST)?;
+    Factorization::new(&table, terms).on(HOST)
+}
+
 /// Forms of Schlick's model, his own first.
 pub(super) fn schlick() -> Vec<Form> {
     let lobe = Lobe::schlick(0.2, 0.2, 0.8);

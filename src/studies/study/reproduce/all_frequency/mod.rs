@@ -1,12 +1,10 @@
 //! "All-Frequency Precomputed Radiance Transfer for Glossy Objects" (Liu, Sloan, Shum, Snyder 2004).
 
-mod codings;
 pub(super) mod counts;
 pub(super) mod factors;
 pub(super) mod figures;
 mod forms;
 mod models;
-mod roughness;
 mod segments;
 pub(super) mod table_1;
 
@@ -15,7 +13,7 @@ pub use models::bunny_in_pieces;
 use super::error::RunResult;
 use super::shared::Shared;
 use super::{
-    Dependence, EntryFindings, HOST, Method, PaperRow, Setting, StudyError, Sweep, ends, number, paper_row, paragraph,
+    Dependence, EntryFindings, HOST, Method, PaperRow, Setting, StudyError, Sweep, ends, paper_row, paragraph,
     printed_value,
 };
 

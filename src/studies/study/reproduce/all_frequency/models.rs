@@ -5,12 +5,11 @@ use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
-use super::forms::{Form, TERMS, cook_torrance, schlick};
-use super::segments::{SegmentShares, SegmentSums};
+use super::forms::{TERMS, cook_torrance, factorization, schlick};
+use super::segments::SegmentSums;
 use super::{HOST, RunResult, Shared, StudyError};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::compressed::SegmentOptions;
-use crate::all_frequency::factor::Factorization;
 use crate::all_frequency::transfer::transfer_of;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
@@ -26,7 +25,7 @@ use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Tangents, Vertices};
 
 /// Segments that represent all: a quarter of a side face, of the upper face and of the lower face. Compressing all
-/// segments of Table 1's models takes some 30 hours of processor time at full size.
+/// segments of Table 1's models would take some 20 hours of processor time at full size.
 pub(super) const SAMPLED_SEGMENTS: [usize; 3] = [0, 17, 21];
 /// Iterations per number of representatives on reduced models.
 pub(super) const REDUCED_ITERATIONS: usize = 2;
@@ -61,14 +60,12 @@ impl TableModel {
 impl TableMaterial {
     /// Returns the reflectance in the textbook form of the model, with ten terms.
     pub(super) fn reflectance(self) -> Result<Reflectance, StudyError> {
-        let (_, lobe, sampling): Form = match self {
+        let (_, lobe, _) = match self {
             Self::Diffuse => return Ok(Reflectance::Diffuse),
             Self::Cook => cook_torrance()[0],
             Self::Schlick => schlick()[0],
         };
-        let table = sampling.table(&lobe, &mut |_, _| ()).on(HOST)?;
-        let factors = Factorization::new(&table, TERMS).on(HOST)?;
-        Ok(Reflectance::Factored(factors.factors(TERMS)))
+        Ok(Reflectance::Factored(factorization(&lobe, TERMS)?.factors(TERMS)))
     }
 }
 
@@ -89,30 +86,48 @@ pub(super) struct ModelVisibility {
 pub(super) struct CompressedModel {
     pub(super) vertices: usize,
     pub(super) omega: f64,
-    /// Number of clusters; an estimate if some segments represent all.
-    pub(super) clusters: usize,
     /// Bytes of raw transfer in single precision.
     pub(super) raw: f64,
-    /// Bytes of weights and representatives in single precision.
-    pub(super) clustered: f64,
-    /// Results for each of [`CODINGS`].
-    pub(super) coded: Vec<CodedModel>,
-    /// Bytes of nonzero quantised Haar coefficients.
-    pub(super) haar: f64,
-    /// Relative squared error by number of representatives.
-    pub(super) error_of: Vec<(usize, f64)>,
-    /// Each compressed segment separately.
-    pub(super) by_segment: Vec<SegmentShares>,
+    /// Number of vertices in all segments over that in the compressed segments: exactly 1 if all are compressed.
+    all_over_sampled: f64,
+    /// Sums over the compressed segments.
+    sums: SegmentSums,
+    /// Number and results of each compressed segment.
+    pub(super) segments: Vec<(usize, SegmentSums)>,
 }
 
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(super) struct CodedModel {
-    /// Bytes of representatives and weights, with every number in 16 bits.
-    pub(super) numbers: f64,
-    /// Bytes of the numbers of columns, steps and clusters.
-    pub(super) headers: f64,
+impl CompressedModel {
+    /// Number of clusters; an estimate if some segments represent all.
+    pub(super) fn clusters(&self) -> usize {
+        (self.all_over_sampled * self.sums.clusters as f64).round() as usize
+    }
+
+    /// Bytes of weights and representatives in single precision.
+    pub(super) fn clustered(&self) -> f64 {
+        4.0 * self.all_over_sampled * self.sums.numbers as f64
+    }
+
+    /// Bytes of representatives and weights in 16 bits, without or with the numbers of columns, steps and clusters.
+    pub(super) fn coded(&self, coding: usize, headers: bool) -> f64 {
+        let code = &self.sums.coded[coding];
+        let bytes = |bytes: u64| self.all_over_sampled * bytes as f64;
+        bytes(code.numbers) + if headers { bytes(code.headers) } else { 0.0 }
+    }
+
     /// Squared error relative to the sum of squares.
-    pub(super) squared_error: f64,
+    pub(super) fn squared_error(&self, coding: usize) -> f64 {
+        self.sums.coded[coding].squared_error / self.sums.squares
+    }
+
+    /// Bytes of nonzero quantised Haar coefficients.
+    pub(super) fn haar(&self) -> f64 {
+        self.all_over_sampled * self.sums.haar
+    }
+
+    /// Relative squared error by number of representatives.
+    pub(super) fn error_of(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.sums.error_of.iter().map(|(vectors, error)| (*vectors, error / self.sums.squares))
+    }
 }
 
 impl ModelVisibility {
@@ -154,31 +169,21 @@ impl ModelVisibility {
             let found = transfer.segment(segment).on(HOST)?;
             found.map(|found| SegmentSums::new(found, iterations, (rows, vertices))).transpose()
         };
-        let (mut sums, mut by_segment) = (SegmentSums::default(), Vec::new());
+        let (mut sums, mut all) = (SegmentSums::default(), Vec::new());
         for segment in segments {
             if let Some(found) = shared.piece(&format!("{name}-segment-{segment:02}"), || of_segment(segment))? {
                 sums.add(&found);
-                by_segment.push(found.shares(segment));
+                all.push((segment, found));
             }
         }
         let census = SegmentCensus::new(&self.vertices, &self.maps, &self.hats);
-        // Exactly 1 if all segments are compressed.
-        let all_over_sampled = census.nonempty as f64 / sums.points as f64;
-        let coded = sums.coded.map(|code| CodedModel {
-            numbers: all_over_sampled * code.numbers as f64,
-            headers: all_over_sampled * code.headers as f64,
-            squared_error: code.squared_error / sums.squares,
-        });
         Ok(CompressedModel {
             vertices,
             omega: census.omega(),
-            clusters: (all_over_sampled * sums.clusters as f64).round() as usize,
             raw: (4 * LIGHT_TEXELS * rows * vertices) as f64,
-            clustered: 4.0 * all_over_sampled * sums.numbers as f64,
-            coded: coded.to_vec(),
-            haar: all_over_sampled * sums.haar,
-            error_of: sums.error_of.into_iter().map(|(vectors, error)| (vectors, error / sums.squares)).collect(),
-            by_segment,
+            all_over_sampled: census.nonempty as f64 / sums.points as f64,
+            sums,
+            segments: all,
         })
     }
 }

@@ -1,20 +1,42 @@
-//! Segments of a model of Table 1, compressed and coded, and their sums.
+//! Segments of a model of Table 1, compressed and coded, and their sums; possible meanings of "16 bits".
 
 use serde::{Deserialize, Serialize};
 
-use super::codings::CODINGS;
 use super::{HOST, RunResult, StudyError};
-use crate::all_frequency::code::CodedTransfer;
+use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer, ScaleOf};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::transfer::TransferSegment;
 use crate::clustering::{CpcaStep, CpcaStepKind, Signal};
+use crate::elementary::pow;
 use crate::transfer::grid::Segmentation;
+
+/// Number of codings of representatives: the largest number of a representative, as in the paper, or of a segment gets
+/// the largest code; or absolute steps, for weights of about 1.
+pub(super) const CODINGS: usize = 2 + STEPS.len();
+/// Absolute steps 2^-(halves / 2).
+const STEPS: [u8; 9] = [30, 31, 32, 33, 34, 35, 36, 37, 38];
+/// The first coding with an absolute step.
+pub(super) const ABSOLUTE: usize = CODINGS - STEPS.len();
+
+/// "16 bits rather than 8".
+pub(super) const BITS: u8 = 16;
+
+/// Codes a segment, and returns the options with it.
+fn code(part: &CompressedSegment, coding: usize) -> Result<(CodedSegment, CodeOptions), StudyError> {
+    let scale = if coding == 1 { ScaleOf::Segment } else { ScaleOf::Representative };
+    let options = CodeOptions { representative_bits: BITS, scale, ..CodeOptions::default() };
+    let coded = match coding.checked_sub(ABSOLUTE) {
+        None => CodedSegment::code(part, options),
+        Some(at) => CodedSegment::code_in_steps(part, pow(2.0, -0.5 * f64::from(STEPS[at])), options),
+    };
+    Ok((coded.on(HOST)?, options))
+}
 
 /// Bits per number in the coding of Haar coefficients without clusters, as in the earlier work.
 const HAAR_BITS: u32 = 8;
 
 /// Results for a segment, or sums over several.
-#[derive(Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct SegmentSums {
     /// Number of vertices with transfer in the segment.
     pub(super) points: usize,
@@ -22,25 +44,15 @@ pub(super) struct SegmentSums {
     /// Number of numbers stored before coding.
     pub(super) numbers: usize,
     pub(super) squares: f64,
-    /// Sums for each of [`CODINGS`].
-    pub(super) coded: [CodeSums; CODINGS.len()],
+    /// Sums for each of the [`CODINGS`].
+    pub(super) coded: [CodeSums; CODINGS],
     /// Bytes of nonzero quantised Haar coefficients.
     pub(super) haar: f64,
     /// Squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
 }
 
-/// Relative size and error of one segment, in the first of [`CODINGS`].
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(super) struct SegmentShares {
-    pub(super) segment: usize,
-    /// Size after coding, relative to the size after clustering.
-    pub(super) coded: f64,
-    /// Squared error relative to the sum of squares.
-    pub(super) squared_error: f64,
-}
-
-#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct CodeSums {
     /// Bytes of representatives and weights.
     pub(super) numbers: u64,
@@ -69,10 +81,10 @@ impl SegmentSums {
             error_of: last_of_each(&steps),
             ..Self::default()
         };
-        for (sums, coding) in found.coded.iter_mut().zip(CODINGS) {
-            let coded = coding.code(&compressed)?;
+        for (coding, sums) in found.coded.iter_mut().enumerate() {
+            let (coded, options) = code(&compressed, coding)?;
             let squared_error = coded.squared_errors(&signal).iter().sum();
-            let (coefficients, options) = (Segmentation::Quarters.len(), coding.options());
+            let coefficients = Segmentation::Quarters.len();
             let coded = CodedTransfer { rows, coefficients, vertices: of_model, options, segments: vec![coded] };
             let size = coded.size();
             let numbers = size.as_the_paper_counts();
@@ -81,10 +93,11 @@ impl SegmentSums {
         Ok(found)
     }
 
-    pub(super) fn shares(&self, segment: usize) -> SegmentShares {
+    /// Size after coding relative to the size after clustering, and squared error relative to the sum of squares, in the
+    /// first coding.
+    pub(super) fn shares(&self) -> [f64; 2] {
         let CodeSums { numbers, squared_error, .. } = self.coded[0];
-        let coded = numbers as f64 / (4 * self.numbers) as f64;
-        SegmentShares { segment, coded, squared_error: squared_error / self.squares }
+        [numbers as f64 / (4 * self.numbers) as f64, squared_error / self.squares]
     }
 
     /// Adds the results of another segment.

@@ -2,13 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::codings::{BITS, CODINGS, Coding};
 use super::models::{
     CompressedModel, ModelVisibility, SAMPLED_SEGMENTS, SeenModel, TableMaterial, TableModel, ground_side,
 };
-use super::{Dependence, EntryFindings, PaperRow, Shared, StudyError, ends, number, paragraph, solved};
+use super::segments::{ABSOLUTE, BITS, CODINGS};
+use super::{Dependence, EntryFindings, PaperRow, Shared, StudyError, ends, paragraph, solved};
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::code::CodeOptions;
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;
@@ -59,26 +58,17 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         }
         rows.push(row);
     }
-    let met = runs.each_ref().map(|run| most_met(run, &figures, &rows).to_string());
+    let met = runs.each_ref().map(|run| most_met(run, &figures, &rows));
     rows.extend(ground.rows()?);
     let [found, on_ground] = &runs;
     let total = |bytes: fn(&CompressedModel) -> f64| found.iter().map(bytes).sum::<f64>();
-    rows.push(solved("ratio-haar", total(|model| model.raw) / total(|model| model.haar))?);
+    rows.push(solved("ratio-haar", total(|model| model.raw) / total(CompressedModel::haar))?);
     let [least, most] = ends(found.iter().map(|model| model.vertices as f64));
-    let options = SegmentOptions::default();
-    let side = number(f64::from(ground_side(shared.models)), 0);
-    let numbers = [
-        least,
-        most,
-        options.points_per_cluster as f64,
-        options.vectors as f64,
-        f64::from(CodeOptions::default().weight_bits),
-        SAMPLED_SEGMENTS.len() as f64,
-    ];
-    let how = paragraph(HOW, numbers.map(|value| number(value, 0)));
-    let range = [BITS.to_string(), TABLE_1.len().to_string()].into_iter().chain(met);
+    let SegmentOptions { points_per_cluster, vectors, .. } = SegmentOptions::default();
+    let (bits, side) = (u32::from(BITS), ground_side(shared.models));
+    let how = paragraph(HOW, &[&least, &most, &points_per_cluster, &vectors, &bits, &SAMPLED_SEGMENTS.len()]);
     Ok(EntryFindings::new(
-        [how, paragraph(GROUND, [side.clone(), side]), paragraph(RANGE, range)],
+        [how, paragraph(GROUND, &[&side, &side]), paragraph(RANGE, &[&bits, &TABLE_1.len(), &met[0], &met[1]])],
         rows,
         [QUESTION],
         [
@@ -128,7 +118,10 @@ impl CompressedGround {
     fn new(model: TableModel, diffuse: &Reflectance, shared: &Shared) -> Result<Self, StudyError> {
         let ground = ModelVisibility::on_ground(model, true, shared.models)?;
         let found = ground.compressed(diffuse, 0..Segmentation::Quarters.count(), (shared, "ground"))?;
-        Ok(Self { omega: found.omega, left: found.coded.iter().map(|coded| coded.numbers / found.raw).collect() })
+        Ok(Self {
+            omega: found.omega,
+            left: (0..CODINGS).map(|coding| found.coded(coding, false) / found.raw).collect(),
+        })
     }
 
     /// Rows for raw and coded data with the printed number of vertices. The value counts all segments, as Table 1 does,
@@ -147,29 +140,26 @@ impl CompressedGround {
 
 /// Values of the rows for each reading of "16 bits": one list per coding, then one with headers.
 fn readings(found: &[CompressedModel]) -> Vec<Vec<f64>> {
-    (0..CODINGS.len()).map(|at| values(found, at, false)).chain([values(found, 0, true)]).collect()
+    (0..CODINGS).map(|at| values(found, at, false)).chain([values(found, 0, true)]).collect()
 }
 
 /// Maximum number of printed coded sizes that a single absolute step meets.
 fn most_met(found: &[CompressedModel], figures: &[(usize, String)], rows: &[PaperRow]) -> usize {
     let of_coding = || figures.iter().zip(rows).filter(|((_, name), _)| name.starts_with("coded-"));
-    let met = |(at, how): (usize, &Coding)| {
-        let values = values(found, at, false);
-        how.is_absolute().then(|| of_coding().filter(|((figure, _), row)| row.admits(values[*figure])).count())
+    let met = |coding: usize| {
+        let values = values(found, coding, false);
+        of_coding().filter(|((figure, _), row)| row.admits(values[*figure])).count()
     };
-    CODINGS.iter().enumerate().filter_map(met).max().unwrap_or(0)
+    (ABSOLUTE..CODINGS).map(met).max().unwrap_or(0)
 }
 
 /// Values of the rows: five for each column, then the smallest and the largest ratio.
 fn values(found: &[CompressedModel], coding: usize, headers: bool) -> Vec<f64> {
-    let bytes = |model: &CompressedModel| {
-        let coded = &model.coded[coding];
-        coded.numbers + if headers { coded.headers } else { 0.0 }
-    };
+    let bytes = |model: &CompressedModel| model.coded(coding, headers);
     let of_model = |model: &CompressedModel| {
-        let bytes = bytes(model);
-        let shares = [model.omega, model.clustered / model.raw, bytes / model.clustered, bytes / model.raw];
-        shares.into_iter().chain([model.coded[coding].squared_error]).map(|share| 100.0 * share).collect::<Vec<_>>()
+        let (bytes, clustered) = (bytes(model), model.clustered());
+        let shares = [model.omega, clustered / model.raw, bytes / clustered, bytes / model.raw];
+        shares.into_iter().chain([model.squared_error(coding)]).map(|share| 100.0 * share).collect::<Vec<_>>()
     };
     let extremes = ends(found.iter().map(|model| model.raw / bytes(model)));
     found.iter().flat_map(of_model).chain(extremes).collect()
@@ -196,19 +186,18 @@ fn table(name: &str, columns: &[CompressedModel]) -> Table {
         "model vertices omega_% clusters raw_MB clustered_MB coded_MB with_headers_MB squared_error_% ratio",
     );
     for ((column, ..), model) in TABLE_1.iter().zip(columns) {
-        let coded = &model.coded[0];
         let megabytes = |bytes: f64| Cell::measured(1e-6 * bytes);
         table.push([
             (*column).into(),
             model.vertices.into(),
             Cell::decimals(100.0 * model.omega, 1),
-            model.clusters.into(),
+            model.clusters().into(),
             megabytes(model.raw),
-            megabytes(model.clustered),
-            megabytes(coded.numbers),
-            megabytes(coded.numbers + coded.headers),
-            Cell::measured(100.0 * coded.squared_error),
-            Cell::measured(model.raw / coded.numbers),
+            megabytes(model.clustered()),
+            megabytes(model.coded(0, false)),
+            megabytes(model.coded(0, true)),
+            Cell::measured(100.0 * model.squared_error(0)),
+            Cell::measured(model.raw / model.coded(0, false)),
         ]);
     }
     table
@@ -216,12 +205,11 @@ fn table(name: &str, columns: &[CompressedModel]) -> Table {
 
 /// Table of the data of Figure 5.
 fn by_representatives(found: &[CompressedModel]) -> Table {
-    let counts: Vec<usize> = found[0].error_of.iter().map(|(vectors, _)| *vectors).collect();
-    let headings: Vec<String> =
-        ["model".to_owned()].into_iter().chain(counts.iter().map(|n| format!("n={n}"))).collect();
+    let counts = found[0].error_of().map(|(vectors, _)| format!("n={vectors}"));
+    let headings: Vec<String> = ["model".to_owned()].into_iter().chain(counts).collect();
     let mut table = Table::new("Squared error before coding, %, by number of representatives", &headings);
     for ((column, ..), model) in TABLE_1.iter().zip(found) {
-        let errors = model.error_of.iter().map(|(_, error)| Cell::measured(100.0 * error));
+        let errors = model.error_of().map(|(_, error)| Cell::measured(100.0 * error));
         table.push([(*column).into()].into_iter().chain(errors));
     }
     table
@@ -234,9 +222,8 @@ fn by_segment(found: &[CompressedModel]) -> Table {
         Table::new("Size after coding over size after clustering, and squared error, %, by segment", &headings);
     for ((column, ..), model) in TABLE_1.iter().zip(found) {
         let of_segment = |segment: &usize| {
-            let shares = model.by_segment.iter().find(|shares| shares.segment == *segment);
-            let shares = shares.map_or([f64::NAN; 2], |shares| [shares.coded, shares.squared_error]);
-            shares.map(|share| Cell::measured(100.0 * share))
+            let found = model.segments.iter().find(|(known, _)| known == segment);
+            found.map_or([f64::NAN; 2], |(_, sums)| sums.shares()).map(|share| Cell::measured(100.0 * share))
         };
         table.push([(*column).into()].into_iter().chain(SAMPLED_SEGMENTS.iter().flat_map(of_segment)));
     }

@@ -1,8 +1,7 @@
 //! Figure 6: lossless biclusters of a chair, and the size of its transfer in the paper's other storage formats.
 
-use super::models::ModelVisibility;
-use super::scenes::SCENES;
-use super::{EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paragraph, printed_value, solved};
+use super::models::{ModelVisibility, SCENES};
+use super::{EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, paragraph, printed_value, solved};
 use crate::bi_scale::bicluster::{SEED, bicluster};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::report::{Cell, Table};
@@ -20,9 +19,8 @@ const QUESTION: &str =
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let chair = FlatModel::Chair.model(shared.models.pick(1, 4)).mesh;
     let seen = ModelVisibility::new(&chair, Horizon::Normal)?;
-    let vertices = [SCENES[2].vertices()?, seen.vertices.len()].map(|count| number(count as f64, 0));
     Ok(EntryFindings::new(
-        [paragraph(HOW, vertices), CAPTIONS.into()],
+        [paragraph(HOW, &[&SCENES[2].vertices()?, &seen.vertices.len()]), CAPTIONS.into()],
         [lossless(&seen.matrix(SCENES[2].side)?)?],
         [QUESTION],
         [chair_sizes()?],

@@ -1,9 +1,7 @@
 //! Figure 8: more local directions.
 
-use super::display::{CARD, display, of_bunny};
-use super::models::ModelVisibility;
-use super::scenes::SCENES;
-use super::{EntryFindings, Shared, StudyError, drawn, number, paragraph, solved};
+use super::models::{CARD, ModelVisibility, SCENES, display, of_bunny};
+use super::{EntryFindings, Shared, StudyError, drawn, paragraph, solved};
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
@@ -46,6 +44,6 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let last = SIDES.len() - 1;
     let power = ln(seconds[last] / seconds[0]) / ln(SIDES[last] as f64 / SIDES[0] as f64);
     let rows = [solved("biclusters-32", megabytes[last])?, drawn("bi-scale/display-power", CARD, power)?];
-    let values = [vertices, of_paper, f64::from(PICTURE[0]), f64::from(PICTURE[1])].map(|value| number(value, 0));
-    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table]))
+    let how = paragraph(HOW, &[&vertices, &of_paper, &PICTURE[0], &PICTURE[1]]);
+    Ok(EntryFindings::new([how], rows, [QUESTION], [table]))
 }

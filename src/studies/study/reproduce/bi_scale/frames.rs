@@ -1,13 +1,14 @@
 //! Frame rates of both tables: if only the view changes, and if the light changes too.
 
-use super::display::{CARD, DisplayRun, PICTURE, display, of_bunny};
-use super::models::{BUNNY, ClusteredModel, ModelVisibility};
-use super::scenes::{PrintedScene, SCENES};
+use super::models::{
+    BUNNY, CARD, ClusteredModel, DisplayRun, ModelVisibility, PICTURE, PrintedScene, SCENES, display, of_bunny,
+};
 use super::{
     Contradiction, Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, TimedWork, drawn,
-    number, paper_row, paragraph, printed_value, solved,
+    paper_row, paragraph, printed_value, solved,
 };
 use crate::transfer::{Tangents, Vertices};
+
 const HOW: &str = "The cost of new light is the difference between a scene's two frame times. One constant, {} billion operations per second and \
     channel, is fitted to all transfers of table I; all rates with new light follow from it and from the printed rates with only a new view. The \
     emulated card displays our bunny in {} x {} pixels, in {} passes of {} directions; a pass has {} texture reads and {} other instructions per \
@@ -71,10 +72,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.extend(sentences(shared, &run, printed[0].operations / constant)?);
     let [reads, others] = run.counts.pixel_slots;
     let [width, height] = PICTURE;
-    let [passes, directions] = [run.counts.passes, run.counts.directions_per_pass].map(|count| count as u32);
-    let numbers = [width, height, passes, directions, reads, others].map(|value| number(f64::from(value), 0));
-    let values = std::iter::once(number(1e-9 * constant, 2)).chain(numbers);
-    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], []))
+    let (passes, directions) = (run.counts.passes, run.counts.directions_per_pass);
+    let how = paragraph(HOW, &[&(1e-9 * constant, 2), &width, &height, &passes, &directions, &reads, &others]);
+    Ok(EntryFindings::new([how], rows, [QUESTION], []))
 }
 
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {

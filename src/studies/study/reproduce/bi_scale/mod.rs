@@ -1,12 +1,10 @@
 //! The paper on real-time all-frequency bi-scale transfer by biclustering.
 
-mod display;
 pub(super) mod figure_6;
 pub(super) mod figure_8;
 pub(super) mod figures;
 pub(super) mod frames;
 mod models;
-mod scenes;
 pub(super) mod table_1;
 pub(super) mod table_2;
 
@@ -14,7 +12,7 @@ use super::error::RunResult;
 use super::shared::Shared;
 use super::{
     Contradiction, Dependence, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, StudyError, TimedWork,
-    drawn, number, paper_row, paragraph, printed, printed_value,
+    drawn, paper_row, paragraph, printed, printed_value,
 };
 const COUNTS: &str = "Nothing is run. Each nonzero value of the matrix costs two operations. A dense matrix takes 1 byte per value, and \
     biclusters take 4 bytes per operation: a row takes 4 bytes and one operation; a column takes 8 bytes, for its place and its value, and two \

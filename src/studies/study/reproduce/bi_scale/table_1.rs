@@ -1,11 +1,9 @@
 //! Table I with stand-ins: biclusters and views of an armor, a chair and a temple; the bunny is in Table II.
 
-use super::display::{CARD, DisplayRun, display_textured};
-use super::models::{ClusteredModel, ModelVisibility, filled};
-use super::scenes::{PrintedScene, SCENES};
-use super::{
-    Dependence, EntryFindings, ModelSize, PaperRow, RunResult, Shared, StudyError, drawn, number, paragraph, solved,
+use super::models::{
+    CARD, ClusteredModel, DisplayRun, ModelVisibility, PrintedScene, SCENES, display_textured, filled,
 };
+use super::{Dependence, EntryFindings, ModelSize, PaperRow, RunResult, Shared, StudyError, drawn, paragraph, solved};
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 use crate::scene::built::flat_models::FlatModel;
@@ -69,7 +67,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             Cell::decimals(3e-6 * found.nonzeros as f64, 1),
         ]);
     }
-    Ok(EntryFindings::new([paragraph(HOW, [number(f64::from(coarser), 0)])], rows, [QUESTION], [table, views]))
+    Ok(EntryFindings::new([paragraph(HOW, &[&coarser])], rows, [QUESTION], [table, views]))
 }
 
 /// Thousands of nonzero values per vertex.

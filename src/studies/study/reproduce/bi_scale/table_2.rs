@@ -1,9 +1,9 @@
 //! Table II: the Stanford bunny, coarsened or refined to the three printed vertex counts.
 
-use super::display::{CARD, display, of_bunny, picture};
-use super::models::{ClusteredModel, LOG2_SAMPLES, ModelVisibility};
-use super::scenes::{PrintedScene, SCENES};
-use super::{EntryFindings, PaperRow, Shared, StudyError, drawn, number, paragraph, solved};
+use super::models::{
+    CARD, ClusteredModel, LOG2_SAMPLES, ModelVisibility, PrintedScene, SCENES, display, of_bunny, picture,
+};
+use super::{EntryFindings, PaperRow, Shared, StudyError, drawn, paragraph, solved};
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel::{self, BiScaleBunny, BiScaleBunnyFine, BiScaleBunnyMiddle};
@@ -44,11 +44,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.push(solved("left-steady", last.2 / first.2)?);
         rows.push(solved("operations-power", ln(last.1 / first.1) / ln(last.0 / first.0))?);
     }
-    let (side, samples) = (SCENES[0].side as f64, f64::from(1_u32 << LOG2_SAMPLES));
-    let [width, height] = picture(shared.models).map(f64::from);
-    let values = [(side, 0), (side, 0), (samples, 0), (samples, 0), (fewer, 1), (width, 0), (height, 0)];
-    let values = values.map(|(value, decimals)| number(value, decimals));
-    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table]))
+    let (side, samples, [width, height]) = (SCENES[0].side, 1_u32 << LOG2_SAMPLES, picture(shared.models));
+    let how = paragraph(HOW, &[&side, &side, &samples, &samples, &(fewer, 1), &width, &height]);
+    Ok(EntryFindings::new([how], rows, [QUESTION], [table]))
 }
 
 fn scene_rows(scene: &PrintedScene, found: &ClusteredModel) -> Result<[PaperRow; 3], StudyError> {

@@ -1,11 +1,10 @@
 //! The table of section 7: overdraw before and after the two optimisations of section 5.
 
-use super::drawn::{BUDGET, COLUMN_IDS, DrawnClusters};
-use super::rates::{INPUTS, rates, ratio_row};
+use super::rates::{BUDGET, COLUMN_IDS, DrawnClusters, INPUTS, rates, ratio_row};
 use super::signals::{BIRD, BUDDHA};
 use super::{
-    CARD, Contradiction, EntryFindings, Method, PaperRow, REGISTERS, Shared, StudyError, ends, number, paragraph,
-    printed, solved,
+    CARD, Contradiction, EntryFindings, Method, PaperRow, REGISTERS, Shared, StudyError, ends, paragraph, printed,
+    solved,
 };
 use crate::report::{Cell, Table};
 
@@ -47,17 +46,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     rows.push(solved("overdraw-bumpy-over-smooth", originals[0] / originals[1])?);
     let size = super::signals::SIGNALS[BIRD].size;
-    let figures = [100.0 * BUDGET, REGISTERS as f64, size.clusters_per_batch(REGISTERS) as f64];
+    let how = paragraph(HOW, &[&(100.0 * BUDGET), &REGISTERS, &size.clusters_per_batch(REGISTERS)]);
     let (timed, frames) = rates(&MODELS, shared)?;
     let faster = by_coherence(&timed)?;
     rows.extend(timed);
     rows.extend(faster);
-    Ok(EntryFindings::new(
-        [paragraph(HOW, figures.map(|figure| number(figure, 0))), paragraph(TIMES, [CARD.to_owned()])],
-        rows,
-        [QUESTION, ORDER],
-        [table, frames],
-    ))
+    Ok(EntryFindings::new([how, paragraph(TIMES, &[&CARD])], rows, [QUESTION, ORDER], [table, frames]))
 }
 
 /// Rows for "a 15-20% increase in rendering speed": the rates with both optimisations relative to the rates with

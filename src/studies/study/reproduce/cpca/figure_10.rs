@@ -2,10 +2,9 @@
 
 use refsim::device::Profile;
 
-use super::drawn::DrawnClusters;
-use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
+use super::rates::{DrawnClusters, OWN_INPUTS, modelled_from_clusters, rate_row};
 use super::signals::{BIRD, iterative};
-use super::{CARD, EntryFindings, Shared, StudyError, number, paragraph, printed, solved};
+use super::{CARD, EntryFindings, Shared, StudyError, paragraph, printed, solved};
 use crate::card::frame_time::FrameTime;
 use crate::clustering::{Clustering, CpcaMethod};
 use crate::cpca::on_card::model::TransferSize;
@@ -26,19 +25,24 @@ const QUESTION: &str = "the model, its BRDF and the scale of the squared error."
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (computed, both) = iterative(shared, BIRD)?;
-    let still = CpcaMethod::Static;
+    let (card, still) = (Profile::named(CARD)?, CpcaMethod::Static);
     let components = computed.compressed_to(1, ENCODINGS[0].2, still)?;
     let quantised = computed.compressed(ENCODINGS[1].1, 0, still)?;
-    let clusterings = [&components, &quantised, &*both];
-    let errors = clusterings.map(|clustering| computed.error(clustering));
-    let card = Profile::named(CARD)?;
-    let mut times = [FrameTime::default(); 3];
-    for ((time, clustering), (_, clusters, vectors, _)) in times.iter_mut().zip(clusterings).zip(ENCODINGS) {
+    let mut table = Table::of(
+        "Encodings",
+        "encoding clusters_printed clusters vectors stored_numbers squared_error_printed squared_error Hz_printed Hz",
+    );
+    let (mut errors, mut times) = ([0.0; 3], [FrameTime::default(); 3]);
+    for (at, clustering) in [&components, &quantised, &*both].into_iter().enumerate() {
+        let (name, clusters, vectors, [error, rate]) = ENCODINGS[at];
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
         let drawn = DrawnClusters::new(&computed, clustering)?;
-        *time = modelled_from_clusters(&card, shared, (computed.paper.model, size), &drawn)?;
+        times[at] = modelled_from_clusters(&card, shared, (computed.paper.model, size), &drawn)?;
+        errors[at] = computed.error(clustering);
+        let of_print = [clusters.into(), Cell::decimals(printed(error)?.value, 1)];
+        let timed = [printed(rate)?.cell(), Cell::measured(times[at].per_second())];
+        table.push(line(name, clustering, of_print, errors[at]).into_iter().chain(timed));
     }
-    let mut table = encodings(&clusterings, errors, times.map(|time| time.per_second()))?;
     let [of_pca, of_vq, of_both] = errors;
     let mut rows = vec![
         solved("pca-over-cpca", of_pca / of_both)?,
@@ -54,47 +58,29 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     {
         let clustering = computed.compressed_to(clusters, vectors, still)?;
         let error = computed.error(&clustering);
-        let line = line(&format!("{name}, with CPCA's storage"), &clustering, (None, None), error);
-        table.push(line.into_iter().chain([Cell::Empty, Cell::Empty]));
+        let empty = || [Cell::Empty, Cell::Empty];
+        let line = line(&format!("{name}, with CPCA's storage"), &clustering, empty(), error);
+        table.push(line.into_iter().chain(empty()));
         rows.push(solved(id, error / of_both)?);
     }
     // The rate of both together is the one in Table 1.
     rows.extend([rate_row("rate-pca", &times[0], OWN_INPUTS)?, rate_row("rate-vq", &times[1], OWN_INPUTS)?]);
-    let stored = ENCODINGS.map(|(_, clusters, vectors, _)| {
+    let [pca, vq, cpca] = ENCODINGS.map(|(_, clusters, vectors, _)| {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
-        number(size.stored_numbers() as f64 / 1e6, 2)
+        (size.stored_numbers() as f64 / 1e6, 2)
     });
-    let sizes = [points, n].map(|count| number(count as f64, 0));
-    Ok(EntryFindings::new([paragraph(HOW, stored.into_iter().chain(sizes))], rows, [QUESTION], [table]))
+    Ok(EntryFindings::new([paragraph(HOW, &[&pca, &vq, &cpca, &points, &n])], rows, [QUESTION], [table]))
 }
 
-fn encodings(clusterings: &[&Clustering; 3], errors: [f64; 3], rates: [f64; 3]) -> Result<Table, StudyError> {
-    let mut table = Table::of(
-        "Encodings",
-        "encoding clusters_printed clusters vectors stored_numbers squared_error_printed squared_error Hz_printed Hz",
-    );
-    for (at, ((name, clusters, _, [error, rate]), clustering)) in ENCODINGS.iter().zip(clusterings).enumerate() {
-        let timed = [printed(rate)?.cell(), Cell::measured(rates[at])];
-        let line = line(name, clustering, (Some(*clusters), Some(printed(error)?.value)), errors[at]);
-        table.push(line.into_iter().chain(timed));
-    }
-    Ok(table)
-}
-
-fn line(
-    name: &str,
-    clustering: &Clustering,
-    (clusters, printed): (Option<usize>, Option<f64>),
-    error: f64,
-) -> [Cell; 7] {
+fn line(name: &str, clustering: &Clustering, [clusters, printed]: [Cell; 2], error: f64) -> [Cell; 7] {
     let vectors = clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
     [
         name.into(),
-        clusters.into(),
+        clusters,
         clustering.subspaces().len().into(),
         vectors.into(),
         clustering.stored_numbers().into(),
-        printed.map_or(Cell::Empty, |printed| Cell::decimals(printed, 1)),
+        printed,
         Cell::measured(error),
     ]
 }

@@ -2,8 +2,7 @@
 
 use refsim::device::Profile;
 
-use super::drawn::DrawnClusters;
-use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, ratio_row, uncompressed};
+use super::rates::{DrawnClusters, OWN_INPUTS, modelled_from_clusters, rate_row, ratio_row, uncompressed};
 use super::signals::{BIRD, BUDDHA, ComputedSignal, iterative};
 use super::{
     CARD, Contradiction, EntryFindings, Method, PaperRow, Shared, StudyError, number, paragraph, printed, solved,
@@ -74,8 +73,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.push(by_compression(&eight_vectors)?);
     let bird = shared.get::<ComputedSignal>(BIRD)?;
     let printed = bird.paper.size.clusters;
-    let figures = [printed, bird.clusters(printed)].map(|count| number(count as f64, 0));
-    Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], [table]))
+    let how = paragraph(HOW, &[&printed, &bird.clusters(printed)]);
+    Ok(EntryFindings::new([how], rows, [QUESTION], [table]))
 }
 
 /// Row for "more than a factor of 10", for both models; the paper's own rates of the Buddha contradict it.

@@ -1,7 +1,7 @@
 //! Figure 2: squared error of static principal components by storage, one curve per number of vectors.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
-use super::{EntryFindings, Shared, StudyError, number, paragraph, solved};
+use super::{EntryFindings, Shared, StudyError, paragraph, solved};
 use crate::cpca::on_card::model::TransferSize;
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
@@ -42,7 +42,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let [worse, better] = crossings(&curves);
     let last = counts.last().copied().unwrap_or(1);
     Ok(EntryFindings::new(
-        [paragraph(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
+        [paragraph(HOW, &[&points, &5.0, &1.0, &last])],
         [solved("curves-worse", worse as f64)?, solved("curves-better", better as f64)?],
         ["the axes of the figure, which the scan has lost."],
         [table],

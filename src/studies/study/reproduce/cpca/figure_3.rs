@@ -1,7 +1,7 @@
 //! Figures 3 and 4: static, iterative and adaptive compression by number of vectors.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
-use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, solved};
+use super::{EntryFindings, PaperRow, Shared, StudyError, paragraph, solved};
 use crate::clustering::CpcaMethod;
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
@@ -52,9 +52,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         solved("figure-4-iterative", ratio(&still, &iterative))?,
         solved("figure-4-adaptive", ratio(&iterative, &adaptive))?,
     ];
-    let points = computed.signal.points();
-    let figures = [points as f64, 5.0, clusters as f64, ROUNDS as f64].map(|figure| number(figure, 0));
-    Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], [table]))
+    let how = paragraph(HOW, &[&computed.signal.points(), &5.0, &clusters, &ROUNDS]);
+    Ok(EntryFindings::new([how], rows, [QUESTION], [table]))
 }
 
 /// Row for a sentence about several numbers of vectors or clusters: the first value is ours, the others are readings.

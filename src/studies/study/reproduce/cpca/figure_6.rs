@@ -2,7 +2,7 @@
 
 use super::figure_3::over_readings;
 use super::signals::{ComputedSignal, POLYGONS};
-use super::{EntryFindings, Shared, StudyError, number, paragraph};
+use super::{EntryFindings, Shared, StudyError, paragraph};
 use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
 
@@ -29,6 +29,6 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             ratios.push(ratio);
         }
     }
-    let figures = [computed.signal.points(), ORDER, CLUSTERS[0], CLUSTERS[1]].map(|count| number(count as f64, 0));
-    Ok(EntryFindings::new([paragraph(HOW, figures)], [over_readings("figure-6", &ratios)?], [], [table]))
+    let how = paragraph(HOW, &[&computed.signal.points(), &ORDER, &CLUSTERS[0], &CLUSTERS[1]]);
+    Ok(EntryFindings::new([how], [over_readings("figure-6", &ratios)?], [], [table]))
 }

@@ -2,12 +2,10 @@
 
 use refsim::device::Profile;
 
-use super::drawn::DrawnClusters;
-use super::rates::{OWN_INPUTS, modelled_from_clusters, ratio_row, time_cells, uncompressed};
+use super::rates::{DrawnClusters, OWN_INPUTS, modelled_from_clusters, ratio_row, time_cells, uncompressed};
 use super::signals::{GLOSSY_BUDDHA, HEAD, SIGNALS};
 use super::{
-    CARD, Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph, printed,
-    printed_value,
+    CARD, Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, paper_row, paragraph, printed, printed_value,
 };
 use crate::card::frame_time::FrameTime;
 use crate::cpca::on_card::model::TransferSize;
@@ -57,11 +55,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.push(row.with_readings(gains[1..].iter().copied()));
     }
     let size = SIGNALS[HEAD].size;
-    let sizes = [size.rows, size.clusters, size.vectors].map(|count| number(count as f64, 0));
     Ok(EntryFindings::new(
         [
-            paragraph(HOW, sizes.into_iter().chain([CARD.to_owned()])),
-            paragraph(NEWER_CARD, [number(printed_value("cpca/newer-card")?, 0)]),
+            paragraph(HOW, &[&size.rows, &size.clusters, &size.vectors, &CARD]),
+            paragraph(NEWER_CARD, &[&printed_value("cpca/newer-card")?]),
         ],
         rows,
         [QUESTION],

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use super::figure_7::ModelView;
 use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA, iterative};
-use super::views::ModelView;
-use super::{EntryFindings, HOST, RunResult, Shared, StudyError, number, paragraph};
+use super::{EntryFindings, HOST, RunResult, Shared, StudyError, paragraph};
 use crate::report::{Cell, Table};
 use crate::sphere::{ClearSky, HarmonicLight};
 
@@ -32,6 +32,11 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let error = sum.difference(Some(&*clustering), &sum.colors(None)?, |_| true)?;
         table.push([Cell::from(name), Cell::percent(100.0 * below), Cell::percent(100.0 * error)]);
     }
-    let counts = [computed.signal.points(), clustering.subspaces().len(), computed.paper.size.vectors];
-    Ok(EntryFindings::new([paragraph(HOW, counts.map(|count| number(count as f64, 0)))], [], [QUESTION], [table]))
+    let (points, clusters) = (computed.signal.points(), clustering.subspaces().len());
+    Ok(EntryFindings::new(
+        [paragraph(HOW, &[&points, &clusters, &computed.paper.size.vectors])],
+        [],
+        [QUESTION],
+        [table],
+    ))
 }

@@ -6,7 +6,6 @@
 
 pub(super) mod appendix;
 pub(super) mod coherence;
-mod drawn;
 pub(super) mod figure_10;
 pub(super) mod figure_11;
 pub(super) mod figure_2;
@@ -18,13 +17,12 @@ pub(super) mod figure_9;
 mod rates;
 mod signals;
 pub(super) mod table_1;
-mod views;
 
 pub use figure_2::crossings;
 pub use figure_3::reaching;
 pub(super) use rates::timed;
 
-use drawn::{CARD, REGISTERS};
+use rates::{CARD, REGISTERS};
 
 use super::error::RunResult;
 use super::shared::{Shared, SharedResult};

@@ -2,10 +2,9 @@
 
 use refsim::device::Profile;
 
-use super::drawn::DrawnClusters;
-use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal, time_cells};
+use super::rates::{DrawnClusters, OWN_INPUTS, modelled_from_clusters, rate_row, time_cells};
 use super::signals::{SIGNALS, iterative};
-use super::{CARD, EntryFindings, PaperRow, Shared, StudyError, ends, number, paragraph, printed, solved};
+use super::{CARD, EntryFindings, PaperRow, Shared, StudyError, ends, paragraph, printed, solved};
 use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::PaperFigure;
@@ -72,8 +71,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let (timed, times) = rates(shared)?;
     rows.extend(timed);
+    let [least, most] = ends(counts.into_iter());
     Ok(EntryFindings::new(
-        [paragraph(HOW, ends(counts.into_iter()).map(|count| number(count, 0))), paragraph(TIMES, [CARD.to_owned()])],
+        [paragraph(HOW, &[&least, &most]), paragraph(TIMES, &[&CARD])],
         rows,
         [QUESTION],
         [table, times],
@@ -89,12 +89,11 @@ fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), StudyError> {
     for (at, id) in IDS.into_iter().enumerate() {
         let (paper, drawn) = (&SIGNALS[at], shared.get::<DrawnClusters>(at)?);
         let time = modelled_from_clusters(&card, shared, (paper.model, paper.size), &drawn)?;
-        let id = format!("rate-{id}");
-        let row = rate_row(&id, &time, OWN_INPUTS)?;
+        let row = rate_row(&format!("rate-{id}"), &time, OWN_INPUTS)?;
         let [original, .., both] = drawn.overdraw.map(|overdraw| Cell::decimals(overdraw, 3));
         let head = [paper.name.into(), original, both, row.target.cell()];
         table.push(head.into_iter().chain(time_cells(&time)).chain([time.vertices_run.into()]));
-        rows.push(if id == CONTRADICTORY[0] { row.contradicted(same_signal(&id)?) } else { row });
+        rows.push(row);
     }
     Ok((rows, table))
 }

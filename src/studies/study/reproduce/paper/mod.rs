@@ -29,7 +29,7 @@ static FIGURES: LazyLock<Result<Vec<PaperFigure>, String>> = LazyLock::new(|| {
 /// Checks a paper's file against its statement digests, and parses its figures; errors are sentences. Fails if the file
 /// is malformed, or its bounds differ from their statements.
 pub fn parse_figures(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
-    let file: file::PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    let file = file::PaperFile::parse(text)?;
     statement::verify(&file)?;
     file::figures(paper, &file)
 }

@@ -6,7 +6,7 @@
 
 use sha2::{Digest, Sha256};
 
-use super::file::{FigureGroup, FileFigure, PaperFile};
+use super::file::{FileFigure, PaperFile};
 
 /// Compares a file with its digests; the error includes advice.
 pub(super) fn verify(file: &PaperFile) -> Result<(), String> {
@@ -22,12 +22,12 @@ pub(super) fn verify(file: &PaperFile) -> Result<(), String> {
         }
     }
     let dated = |date: &String| file.stated.iter().any(|stated| stated.date == *date);
-    for (group, figure) in file.entries() {
+    for figure in &file.figures {
         if !figure.stated.iter().all(dated) {
             return Err(format!("`{}` is stated on a date that `stated` does not list", figure.id));
         }
-        let has_reasons = figure.changes(group).all(|change| !change.why.is_empty());
-        if !has_reasons || !figure.changes(group).map(|change| &change.date).is_sorted() {
+        let has_reasons = figure.changed.iter().all(|change| !change.why.is_empty());
+        if !has_reasons || !figure.changed.is_sorted_by_key(|change| &change.date) {
             return Err(format!("each change of `{}` needs a reason, and the oldest change comes first", figure.id));
         }
     }
@@ -37,27 +37,23 @@ pub(super) fn verify(file: &PaperFile) -> Result<(), String> {
 /// Digest of the figures stated on a date, in their original form: 16 hexadecimal digits.
 fn digest(file: &PaperFile, first: &str, date: &str) -> String {
     let mut hash = Sha256::new();
-    let stated = |(_, figure): &(&FigureGroup, &FileFigure)| figure.stated.as_deref().unwrap_or(first) == date;
-    file.entries().filter(stated).for_each(|(group, figure)| hash.update(as_stated(group, figure)));
+    let stated = file.figures.iter().filter(|figure| figure.stated.as_deref().unwrap_or(first) == date);
+    stated.for_each(|figure| hash.update(as_stated(figure.clone())));
     hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Line of a figure with its changes undone.
-fn as_stated(group: &FigureGroup, figure: &FileFigure) -> String {
-    let (mut terms, mut value) = (figure.terms(group), figure.value.clone());
-    for change in figure.changes(group).rev() {
-        let before = change.before.clone();
-        value = change.value.clone().or(value);
+fn as_stated(mut figure: FileFigure) -> String {
+    while let Some(before) = figure.changed.pop() {
+        figure.value = before.value.or(figure.value);
         if before.bound.is_some() || before.unjudged.is_some() {
-            (terms.bound, terms.unjudged) = (before.bound, before.unjudged);
+            (figure.bound, figure.unjudged) = (before.bound, before.unjudged);
         }
-        terms.unit = before.unit.or(terms.unit);
-        terms.reading = before.reading.or(terms.reading).filter(|reading| !reading.is_empty());
+        figure.unit = before.unit.or(figure.unit);
+        figure.reading = before.reading.or(figure.reading).filter(|reading| !reading.is_empty());
     }
+    let FileFigure { id, value, ratio, scale, unit, place, bound, unjudged, reading, .. } = figure;
     // Reasons for not judging are prose, and their wording may change.
-    let unjudged = terms.unjudged.map(|_| "unjudged");
-    format!(
-        "{}|{value:?}|{:?}|{:?}|{:?}|{}|{:?}|{unjudged:?}|{:?}\n",
-        figure.id, figure.ratio, figure.scale, terms.unit, group.place, terms.bound, terms.reading,
-    )
+    let unjudged = unjudged.map(|_| "unjudged");
+    format!("{id}|{value:?}|{ratio:?}|{scale:?}|{unit:?}|{place}|{bound:?}|{unjudged:?}|{reading:?}\n")
 }

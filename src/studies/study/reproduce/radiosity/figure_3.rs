@@ -48,7 +48,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         both.push((jacobi, seidel));
     }
     Ok(EntryFindings {
-        text: vec![paragraph(HOW, [CONVERGED.to_string()])],
+        text: vec![paragraph(HOW, &[&CONVERGED.to_string()])],
         rows: vec![row(&both, late)?],
         questions: vec!["the residual at which the authors stopped counting, and the ranges of their figure's axes."],
         tables: vec![table],

@@ -108,7 +108,6 @@ fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<String
     // the curves.
     let n = believed / f64::from(PATCHES);
     let needed = ln(host.per_s / card.per_s * n * n) / ln(n);
-    let figures =
-        [said(|p| p.rgb), said(|p| p.luminance), number(believed, 0), number(needed, 1), number(f64::from(PATCHES), 0)];
-    Ok(vec![HOW.into(), paragraph(BELIEF, figures)])
+    let (rgb, luminance) = (said(|p| p.rgb), said(|p| p.luminance));
+    Ok(vec![HOW.into(), paragraph(BELIEF, &[&rgb, &luminance, &believed, &(needed, 1), &PATCHES])])
 }

@@ -10,7 +10,7 @@ use crate::radiosity::rate::TimedIteration;
 use crate::radiosity::{kernels, model};
 use crate::report::{Cell, Table};
 use crate::study::reproduce::error::figure;
-use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, paragraph};
+use crate::study::reproduce::{Dependence, Method, PaperRow, paper_row, paragraph};
 
 /// Numbers of patches that are compared: six full blocks; six sides of 16 x 16 patches; the four numbers consistent
 /// with both pairs of rates, with their neighbors; and a round number.
@@ -32,14 +32,13 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     let printed = PrintedRates::both()?;
     let fits: Vec<u32> = (1..=2 * PATCHES).filter(|n| fits(*n, &printed)).collect();
     let [least, most] = [fits.first(), fits.last()].map(|n| n.map_or_else(String::new, u32::to_string));
-    let operations = number(printed[0].mflops / printed[0].per_s, 2);
+    let operations = (printed[0].mflops / printed[0].per_s, 2);
     let profile = Profile::named(CARD)?;
     let (texel, width) = (16.0, figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)?);
-    let clocks = [texel, width, texel / width, 100.0 * paper.filled].map(|value| number(value, 0));
     Ok(EntryFindings::new(
         [
-            paragraph(HOW, [operations, least, most, paper.passes.to_string(), CARD.to_owned()]),
-            paragraph(WHERE, clocks),
+            paragraph(HOW, &[&operations, &least, &most, &paper.passes, &CARD]),
+            paragraph(WHERE, &[&texel, &width, &(texel / width), &(100.0 * paper.filled)]),
         ],
         rows(&paper, &printed)?,
         [

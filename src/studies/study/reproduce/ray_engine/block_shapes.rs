@@ -7,7 +7,7 @@ use refsim::timing::cache::TextureCaches;
 
 use super::pipeline::timed;
 use super::radeon_8500::{mesh, moved_rays};
-use super::{EntryFindings, RunResult, Shared, StudyError, no_time, number, paragraph};
+use super::{EntryFindings, RunResult, Shared, StudyError, no_time, paragraph};
 use crate::geom::exact::Sides;
 use crate::ray_engine::{Crossbar, RayBatch, Recording};
 use crate::report::{Cell, Table};
@@ -57,5 +57,5 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
             ]);
         }
     }
-    Ok(EntryFindings::new([paragraph(HOW, [number(TRIANGLES as f64, 0)])], [], [], [table]))
+    Ok(EntryFindings::new([paragraph(HOW, &[&TRIANGLES])], [], [], [table]))
 }

@@ -3,9 +3,7 @@
 use refsim::device::Profile;
 
 use super::pipeline::model;
-use super::{
-    Dependence, EntryFindings, Method, Shared, StudyError, figure, number, paper_row, paragraph, pipeline, printed,
-};
+use super::{Dependence, EntryFindings, Method, Shared, StudyError, figure, paper_row, paragraph, pipeline, printed};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Table};
 
@@ -67,7 +65,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
                 "The pipeline model uses neither of the fill rates, but reads back at the printed rate. It draws \
                  screen-filling quads with two textures of the screen's size (each texel is read once per quad), a \
                  depth test, and depth and colour writes. The bottleneck of such a draw is {}: {} bytes per pixel.",
-                [pixel.cost.bottleneck.to_string(), number(bytes, 0)],
+                &[&pixel.cost.bottleneck.to_string(), &bytes],
             ),
         ],
         rows,

@@ -3,7 +3,7 @@
 use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind};
 
-use super::{EntryFindings, RunResult, Shared, StudyError, number, paragraph};
+use super::{EntryFindings, RunResult, Shared, StudyError, paragraph};
 use crate::card::RasterizedEyes;
 use crate::geom::exact::Sides;
 use crate::io::scenes;
@@ -70,8 +70,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         let share = Cell::decimals(100.0 * engine.counts().share_on_card(), 1);
         push(format!("hybrid, engine on {device}"), &hybrid, [drawn, share]);
     }
-    let [width, height] = SIZE.map(|side| number(f64::from(side), 0));
-    Ok(EntryFindings::new([paragraph(HOW, [width, height, DRAWS.to_owned()])], [], [], [table]))
+    Ok(EntryFindings::new([paragraph(HOW, &[&SIZE[0], &SIZE[1], &DRAWS])], [], [], [table]))
 }
 
 /// RMS and largest difference of a channel over some pixels, in steps of 1/255, and the percentage of pixels that

@@ -8,7 +8,6 @@
 //! definition of a ray on the card ([`shares`]).
 
 pub(super) mod block_shapes;
-mod engine_run;
 pub(super) mod equation_11;
 pub(super) mod figure_1;
 pub(super) mod figure_7;
@@ -17,16 +16,13 @@ pub(super) mod radeon_8500;
 mod shares;
 mod speed_ups;
 pub(super) mod table_1;
-pub(super) mod table_3;
-pub(super) mod table_4;
-pub(super) mod table_5;
-mod teapot;
+pub(super) mod tables;
 pub(super) mod vertex_variant;
 mod workload;
 
 use super::error::{RunResult, figure, no_time};
 use super::shared::{Shared, SharedResult};
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, drawn, number, paper_row,
-    paragraph, printed, printed_value,
+    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, drawn, paper_row, paragraph,
+    printed, printed_value,
 };

@@ -6,7 +6,7 @@ use refsim::machine::ExecutorKind;
 use super::equation_11::MEGA;
 use super::pipeline::timed;
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, TimedWork, figure, number, paper_row,
+    Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, TimedWork, figure, paper_row,
     paragraph, printed_value,
 };
 use crate::geom::exact::{Sides, Tracer};
@@ -38,12 +38,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     let pipes = figure(&profile, "rates.pixel_pipes", rates.pixel_pipes)?;
     let clocks =
         pipes * figure(&profile, "rates.core_clock_hz", rates.core_clock_hz)? / (printed_value(PRINTED)? * MEGA);
-    let side = || SIDE.to_string();
     Ok(EntryFindings::new(
-        [paragraph(
-            PAIRS,
-            [side(), side(), number(pipes, 0), number(clocks, 2), number(f64::from(LEAK_SIDE.pow(2)), 0)],
-        )],
+        [paragraph(PAIRS, &[&SIDE, &SIDE, &pipes, &(clocks, 2), &LEAK_SIDE.pow(2)])],
         rows,
         [
             "the length of the authors' program, and whether its rays shared an origin.",

@@ -7,9 +7,7 @@ use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 use refsim::timing::queue::QueueFigures;
 
-use super::engine_run::{Run, rays_per_s};
-use super::teapot::{RATE, TeapotRoom, plus_card, speed_up};
-use super::workload::{OCTREE, TIMES};
+use super::workload::{OCTREE, RATE, Run, TIMES, TeapotRoom, plus_card, rays_per_s, speed_up};
 use super::{Dependence, Method, PaperRow, Setting, Shared, SharedResult, StudyError, Sweep, paper_row};
 use crate::ray_engine::engine::{EngineParameters, Readback};
 use crate::report::{Cell, Table};

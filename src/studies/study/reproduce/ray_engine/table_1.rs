@@ -5,10 +5,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use refsim::timing::queue::QueueFigures;
 
-use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
-use super::teapot::{QUESTION, RATE, TeapotRoom, plus_card};
-use super::workload::{Job, JobRenderer, TIMES, Workload};
+use super::workload::{Job, JobRenderer, QUESTION, RATE, Run, TIMES, TeapotRoom, Workload, plus_card, rays_per_s};
 use super::{EntryFindings, Method, PaperRow, Shared, StudyError, paper_row, printed};
 use crate::ray_engine::engine::EngineParameters;
 use crate::report::{Cell, NamedChart, Table};

@@ -5,7 +5,7 @@ use refsim::machine::{ExecutorKind, Machine};
 
 use super::equation_11::MEGA;
 use super::pipeline::{model, timed};
-use super::{EntryFindings, RunResult, Shared, StudyError, drawn, figure, number, paragraph, printed_value};
+use super::{EntryFindings, RunResult, Shared, StudyError, drawn, figure, paragraph, printed_value};
 use crate::geom::teapot::teapot;
 use crate::ray_engine::{RayBatch, intersect_in_vertices};
 use crate::report::{Cell, Table};
@@ -21,7 +21,7 @@ const HOW: &str = "The paper describes this alternative, but rejects it: constan
     vertices per test. The paper does not say which card it means: on {}, the printed figure would be {} clocks per test.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let (mut rates, mut numbers) = (Vec::new(), Vec::new());
+    let (mut rates, mut how) = (Vec::new(), String::new());
     let mut table = Table::of(
         "Tests in the vertex units",
         "device M_tests_per_s instructions_per_vertex vertices_per_test clocks_per_vertex_and_unit vertex_units bound_by",
@@ -49,16 +49,16 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
             profile.rates.vertex_units.into(),
             drawn.cost.bottleneck.to_string().into(),
         ]);
-        if numbers.is_empty() {
+        if device == DEVICES[0] {
             let hz = figure(&profile, "rates.core_clock_hz", profile.rates.core_clock_hz)?;
-            let clocks = number(hz / (printed_value(PRINTED)? * MEGA), 0);
-            numbers = vec![instructions.to_string(), vertices.to_string(), device.to_owned(), clocks];
+            let clocks = hz / (printed_value(PRINTED)? * MEGA);
+            how = paragraph(HOW, &[&instructions, &vertices, &device, &clocks]);
         }
         rates.push(rate);
     }
     let row = drawn(PRINTED, DEVICES[0], rates[0])?.with_readings(rates[1..].iter().copied());
     Ok(EntryFindings::new(
-        [paragraph(HOW, numbers)],
+        [how],
         [row],
         ["the card, the length of the program, and whether a test was one vertex (a point) or three (a triangle)."],
         [table],

@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 use crate::report::words::counted;
 use crate::study::reproduce::prose::{number, paragraph};
 
-const RECORDED: &str = "Rows and tables are recorded: `{}`, version {} ({}), {}.";
-const CONFIRMED: &str =
-    "All rows were recomputed at full size, with the same bits as the record: `{}`, version {} ({}), {}.";
-const DIFFERS: &str = "All rows were recomputed at full size; {} from the record: `{}`, version {} ({}), {}. \
+const RUN: &str = "`{}`, version {} ({}), {}";
+const RECORDED: &str = "Rows and tables are recorded: {}.";
+const CONFIRMED: &str = "All rows were recomputed at full size, with the same bits as the record: {}.";
+const DIFFERS: &str = "All rows were recomputed at full size; {} from the record: {}. \
     Either a different version of the program made the record, or this version computes other bits on this machine.";
 
 /// Provenance of a record.
@@ -55,13 +55,12 @@ impl RecordStatus {
         let seconds = |time: f64, what: &str| format!("{} s {what}", number(time, 0));
         let processor = made.processor_s.map(|time| seconds(time, "of processor time"));
         let times = processor.into_iter().chain([seconds(made.wall_s, "of wall-clock time")]).collect::<Vec<_>>();
-        let made = [made.command.clone(), made.version.clone(), made.commit.clone(), times.join(" and ")];
+        let run = paragraph(RUN, &[&made.command, &made.version, &made.commit, &times.join(" and ")]);
         match self {
-            Self::Recorded(_) => paragraph(RECORDED, made),
-            Self::Computed { differ: 0, .. } => paragraph(CONFIRMED, made),
+            Self::Recorded(_) => paragraph(RECORDED, &[&run]),
+            Self::Computed { differ: 0, .. } => paragraph(CONFIRMED, &[&run]),
             Self::Computed { differ, .. } => {
-                let rows = counted(*differ as u64, "row differs", "rows differ");
-                paragraph(DIFFERS, [rows].into_iter().chain(made))
+                paragraph(DIFFERS, &[&counted(*differ as u64, "row differs", "rows differ"), &run])
             }
         }
     }

@@ -1,8 +1,10 @@
-//! Printed values of a paper, with their origins.
+//! Printed values of a paper, with their origins, their bounds, and contradictions between them.
 
-use super::Bound;
+use serde::{Deserialize, Serialize};
+
 use crate::report::Cell;
 use crate::study::reproduce::Paper;
+use crate::study::reproduce::prose::number;
 
 /// Origin of a value.
 #[derive(Clone, Debug, PartialEq, Eq, strum::Display)]
@@ -135,5 +137,102 @@ impl PaperFigure {
     /// Formats the value as printed, with its origin if it is not printed.
     pub fn text(&self) -> String {
         self.cell().text()
+    }
+}
+
+/// Tolerance of a value. The rounding of the printed value is allowed in addition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// Equal to the printed value when rounded to its number of digits.
+    Print,
+    /// Within this fraction of the paper's value.
+    Relative(f64),
+    /// Within this fraction of the gain of the paper's value over a value that calibrated the model. A prediction
+    /// without gain is outside the bound.
+    Gain {
+        /// Fraction of the gain.
+        share: f64,
+        /// Value that calibrated the model.
+        over: f64,
+    },
+    /// At least the paper's value.
+    AtLeast,
+    /// On the same side of 1 as the paper's ratio, so that the larger one of two values is the same.
+    Order,
+    /// Too vague to be tested.
+    TooVague,
+}
+
+impl Bound {
+    /// Allowed relative difference of a prediction, unless a narrower bound can be stated.
+    pub const SHARE: f64 = 0.15;
+
+    /// Smallest and largest value within the bound around a printed value, whose rounding error is at most `rounding`;
+    /// `None` if the text is too vague.
+    pub fn interval(&self, printed: f64, rounding: f64) -> Option<[f64; 2]> {
+        let around = |by: f64| Some([printed - by, printed + by]);
+        match *self {
+            Self::Print => around(rounding),
+            Self::Relative(share) => around(share * printed.abs() + rounding),
+            Self::Gain { share, over } => around(share * (printed - over).abs() + rounding),
+            Self::AtLeast => Some([printed - rounding, f64::INFINITY]),
+            Self::Order if printed > 1.0 => Some([1.0_f64.next_up(), f64::INFINITY]),
+            Self::Order => Some([f64::NEG_INFINITY, 1.0_f64.next_down()]),
+            Self::TooVague => None,
+        }
+    }
+
+    /// Returns `true` if a value lies within the bound around a printed value; always `false` if the text is too vague.
+    pub fn admits(&self, printed: f64, rounding: f64, value: f64) -> bool {
+        self.interval(printed, rounding).is_some_and(|[low, high]| (low..=high).contains(&value))
+    }
+
+    /// Formats the bound.
+    pub fn text(&self) -> String {
+        let percent = |share: f64| number(100.0 * share, 0);
+        match *self {
+            Self::Print => "every digit".to_owned(),
+            Self::Relative(share) => format!("{} %", percent(share)),
+            Self::Gain { share, .. } => format!("{} % of the gain", percent(share)),
+            Self::AtLeast => "at least".to_owned(),
+            Self::Order => "order".to_owned(),
+            Self::TooVague => "none".to_owned(),
+        }
+    }
+}
+
+/// Computation from printed values alone whose result differs from the printed value. The functions below create it,
+/// and reject values that agree.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contradiction {
+    text: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    value: Option<f64>,
+}
+
+impl Contradiction {
+    /// Contradiction of a figure by a value computed from other printed values, with a description of the computation;
+    /// `None` if the value rounds to the printed value.
+    pub fn between(figure: &PaperFigure, computed: f64, how: &str) -> Option<Self> {
+        let decimals = figure.decimals + u8::from(figure.value.abs() < 1000.0);
+        let text = || format!("{} {}: {how}", number(computed, decimals), figure.unit);
+        let contradicts = (computed - figure.value).abs() > figure.rounding();
+        contradicts.then(|| Self { text: text().trim().to_owned(), value: Some(computed) })
+    }
+
+    /// Contradiction that exists if a condition on printed values holds; `None` if it does not.
+    pub fn if_holds(condition: bool, computation: impl Into<String>) -> Option<Self> {
+        condition.then(|| Self { text: computation.into(), value: None })
+    }
+
+    /// The computation.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Value that contradicts the figure; `None` if the contradiction gives no value.
+    pub const fn value(&self) -> Option<f64> {
+        self.value
     }
 }

@@ -4,21 +4,15 @@
 //! the bound. Only a [`Sweep`] of the same run creates [`Explanation`]s; only computations from printed values create
 //! [`Contradiction`]s. Calibrated values are listed separately, and still have to lie within their bounds.
 
-mod bound;
-mod contradiction;
-mod explanation;
 mod figure;
 mod method;
 mod sweep;
 mod verdict;
 
-pub use bound::Bound;
-pub use contradiction::Contradiction;
-pub use explanation::Explanation;
-pub use figure::{Judgement, MissClass, Origin, PaperEquation, PaperFigure};
+pub use figure::{Bound, Contradiction, Judgement, MissClass, Origin, PaperEquation, PaperFigure};
 pub use method::{Dependence, Method};
 pub use sweep::{Setting, Sweep};
-pub use verdict::RowVerdict;
+pub use verdict::{Explanation, RowVerdict};
 
 use super::prose::ends;
 

@@ -2,7 +2,7 @@
 
 use super::gather::{EIGHT, GatherCost, VARIANTS, Variant};
 use super::{
-    CARD, Dependence, EntryFindings, LINKS, Method, RunResult, Setting, Shared, StudyError, Sweep, number, paper_row,
+    CARD, Dependence, EntryFindings, LINKS, Method, RunResult, Setting, Shared, StudyError, Sweep, paper_row,
     paragraph, solved,
 };
 use crate::atlas::Atlas;
@@ -50,7 +50,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.push(row.confined([nodes; 2], "every binary tree of T leaves has 2 T - 1 nodes"));
     }
     Ok(EntryFindings::new(
-        [paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
+        [paragraph(HOW, &[&LINKS, &fixed, &adaptive, &tiled])],
         rows,
         ["the authors' clustering of faces, and which of the two kinds of links was timed."],
         [programs(&costs), held],

@@ -1,7 +1,6 @@
 //! Section 4 of the radiosity and subsurface paper: its counts, and the times of its Table 1.
 
 pub(super) mod counts;
-mod frame_cost;
 pub(super) mod frames;
 mod gather;
 pub(super) mod table_1;

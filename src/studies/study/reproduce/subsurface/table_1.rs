@@ -77,11 +77,13 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let [quickest, slowest] = ends(costs.iter().map(ms));
     let [low, high] = ends(rows.iter().map(|row| row.target.value));
-    let [display, side, apart] =
-        [(DISPLAY, 0), (SIDES[1], 0), (100.0 * (high / low - 1.0), 1)].map(|(n, d)| number(n, d));
-    let locked = locked(&printed).into_iter().chain([display, side.clone(), side, apart]);
+    let ([periods, least, most], side) = (locked(&printed), SIDES[1]);
+    let apart = (100.0 * (high / low - 1.0), 1);
     Ok(EntryFindings::new(
-        [paragraph(LOCKED, locked), paragraph(OPEN, [number(slowest / quickest, 1)])],
+        [
+            paragraph(LOCKED, &[&periods, &least, &most, &DISPLAY, &side, &side, &apart]),
+            paragraph(OPEN, &[&(slowest / quickest, 1)]),
+        ],
         rows,
         ["the format of the radiosity map, the choice of links, and whether waits for the display are in the times."],
         [variants(shared, &costs)?],

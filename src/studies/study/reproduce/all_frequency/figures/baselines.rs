@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::lit::Surface;
-use super::scene::{FigureScene, stand_in};
-use super::{EntryFindings, Shared, StudyError, models, number, paragraph, solved};
+use super::scene::{FigureScene, Surface, stand_in};
+use super::{EntryFindings, Shared, StudyError, models, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::baselines::{BaselineSubject, FixedView, HarmonicTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -55,10 +54,9 @@ pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
         }
         ratios.push(harmonics / ours);
     }
-    let sizes =
-        [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, methods.options.points_per_cluster, ORDER];
+    let (model, ground) = (scene.of_model.len(), scene.of_ground.len());
     Ok(EntryFindings::new(
-        [paragraph(HOW, sizes.map(|size| number(size as f64, 0)))],
+        [paragraph(HOW, &[&model, &ground, &TERMS, &VECTORS, &methods.options.points_per_cluster, &ORDER])],
         [solved("harmonics-over-ours", ratios[0])?.with_readings(ratios[1..].iter().copied())],
         [],
         [table],

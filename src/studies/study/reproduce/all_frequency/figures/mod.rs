@@ -1,16 +1,13 @@
 //! Figures 1, 2 and 5 to 7: errors and derived counts. Figure 3 is in the module `factors`.
 
 mod baselines;
-mod lit;
 mod models;
 mod numbers;
 mod rates;
 mod scene;
 mod truncation;
 
-use super::{
-    Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paper_row, paragraph, solved,
-};
+use super::{Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, paper_row, paragraph, solved};
 pub(in crate::study::reproduce) use rates::timed;
 
 use crate::study::reproduce::{ModelSize, TimedWork};

@@ -1,10 +1,11 @@
 //! Models of the figures, at the printed or a reduced size.
 
-use super::{HOST, ModelSize, RunResult, StudyError};
+use super::ModelSize;
 use crate::all_frequency::compressed::SegmentOptions;
-use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe};
+use crate::all_frequency::factor::Lobe;
 use crate::geom::Mesh;
 use crate::scene::built::transfer_models::TransferModel;
+pub(super) use crate::study::reproduce::all_frequency::forms::factorization;
 use crate::study::reproduce::all_frequency::forms::{bare, quarter_of_half_vector};
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
 pub(super) use crate::study::reproduce::all_frequency::models::ground_side as ground;
@@ -38,10 +39,4 @@ pub(super) fn schlick() -> [NamedLobe; 2] {
 pub(super) fn cook_torrance() -> [NamedLobe; 2] {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
     [("textbook", lobe), ("distribution alone", bare(lobe))]
-}
-
-/// Factors a reflectance by its singular vectors into `terms` terms.
-pub(super) fn factorization(lobe: &Lobe, terms: usize) -> Result<Factorization, StudyError> {
-    let table = FactorSampling::default().table(lobe, &mut |_, _| ()).on(HOST)?;
-    Factorization::new(&table, terms).on(HOST)
 }

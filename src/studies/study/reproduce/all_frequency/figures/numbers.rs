@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::lit::Surface;
-use super::scene::FigureScene;
-use super::{EntryFindings, Shared, StudyError, models, number, paragraph, solved};
+use super::scene::{FigureScene, Surface};
+use super::{EntryFindings, Shared, StudyError, models, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::report::{Cell, Table};
 use crate::study::prt::SegmentTally;
@@ -54,6 +53,6 @@ pub(super) fn figure_5(shared: &Shared) -> Result<EntryFindings, StudyError> {
     }
     let row = solved("one-representative-over-16", errors[0] / errors[3])?.confined([1.0, f64::INFINITY], FEWER);
     let [clusters, segments] = counts;
-    let sizes = [maps.len(), clusters, segments, models::options(size, 1).points_per_cluster];
-    Ok(EntryFindings::new([paragraph(HOW, sizes.map(|count| number(count as f64, 0)))], [row], [], [table]))
+    let how = paragraph(HOW, &[&maps.len(), &clusters, &segments, &models::options(size, 1).points_per_cluster]);
+    Ok(EntryFindings::new([how], [row], [], [table]))
 }

@@ -6,8 +6,7 @@ use refsim::timing::host::HostOperation;
 
 use super::scene::FigureScene;
 use super::{
-    Dependence, EntryFindings, ModelSize, PaperRow, RunResult, StudyError, TimedWork, models, number, paper_row,
-    paragraph,
+    Dependence, EntryFindings, ModelSize, PaperRow, RunResult, StudyError, TimedWork, models, paper_row, paragraph,
 };
 use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
 use crate::all_frequency::on_card::{ProductPlace, VertexColors};
@@ -118,7 +117,6 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
     for ((_, id, _), model) in COLUMNS.iter().zip(&TABLE_1) {
         rows.push(rate_row(&format!("all-frequency/fps-{id}"), &time_of(model, None)?)?);
     }
-    let figures =
-        [number(f64::from(GROUND_SIDE * GROUND_SIDE), 0), number(100.0 * omega, 0), number(RUN_PER_TRIANGLE, 1)];
-    Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [], [table]))
+    let how = paragraph(HOW, &[&(GROUND_SIDE * GROUND_SIDE), &(100.0 * omega), &(RUN_PER_TRIANGLE, 1)]);
+    Ok(EntryFindings::new([how], rows, [], [table]))
 }

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::rates::{buddha_without_drawing, seconds_of};
 use super::scene::FigureScene;
-use super::{EntryFindings, HOST, ModelSize, RunResult, StudyError, models, number, paragraph, solved};
+use super::{EntryFindings, HOST, ModelSize, RunResult, StudyError, models, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::elementary::on_circle;
@@ -116,7 +116,6 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
     let needed = needed.map_or(f64::NAN, |(&keep, _)| keep as f64);
     let share = 100.0 * needed.min(nonzero as f64) / nonzero as f64;
     let rows = [solved("coefficients-of-faces", nonzero as f64)?, solved("without-flicker", share)?];
-    let figures = [scene.of_model.len() as f64, SOURCES as f64, RADIUS, f64::from(FRAMES - 1)];
-    let text = paragraph(HOW, figures.map(|figure| number(figure, 0)));
+    let text = paragraph(HOW, &[&scene.of_model.len(), &SOURCES, &RADIUS, &(FRAMES - 1)]);
     Ok(EntryFindings::new([text], rows, [], [table]))
 }
