@@ -120,6 +120,7 @@ pub(crate) fn full_blocks_are_the_hosts() {
     for size in 253..=256 {
         let system = room(size, 3);
         let rgb = CardSystem::rgb(&system, fit.block, LIMIT).expect("it fits");
+        assert_eq!(rgb.matrix.width.div_ceil(rgb.block), if size > 254 { 2 } else { 1 });
         iterations_agree("batch", &ExecutorKind::Batch.into(), &[rgb]);
     }
     let systems = luminance(&room(1018, 4), fit.block);

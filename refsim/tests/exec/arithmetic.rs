@@ -28,6 +28,15 @@ fn sincos_is_the_half_angle_series() {
 }
 
 #[test]
+fn nrm_of_a_zero_vector_is_zero() {
+    for format in ["s3.12", "e5m10", "e8m23"] {
+        let profile = ideal(format);
+        let text = "ps_2_0\nmov r0, c0\nnrm r1, r0\nmov oC0, r1";
+        assert_eq!(run(text, &profile, &[[0.0; 4]]).value(1), [0; 4], "{format}");
+    }
+}
+
+#[test]
 fn vertex_operations() {
     let profile = ideal("e8m23");
     let vs = |body: &str, values: &[[f32; 4]]| {

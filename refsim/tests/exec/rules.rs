@@ -279,3 +279,15 @@ fn the_trace_has_flags() {
     let flags: Vec<Flags> = ran.steps.iter().map(|s| s.flags).collect();
     assert_eq!(flags, [Flags::INEXACT, Flags::empty(), Flags::empty(), Flags::empty()]);
 }
+
+#[test]
+fn derivatives_are_differences_of_the_quad_in_every_lane() {
+    let constants = constants(&[]);
+    let bindings = PixelBindings::new(&constants);
+    let quad: [FragmentInput; 4] =
+        std::array::from_fn(|lane| input(&[[0.25 * (lane & 1) as f32, 0.25 * (lane >> 1) as f32, 0.0, 1.0]]));
+    let text = "ps_2_a\ndcl t0\ndsx r0, t0\ndsy r1, t0\nmov r0.z, r1.y\nmov oC0, r0";
+    for ran in run_quad(text, &ideal("e8m23"), &bindings, &quad).results {
+        assert_eq!(ran.colors[0].map(f32::from_bits)[..3], [0.25, 0.0, 0.25]);
+    }
+}

@@ -18,6 +18,6 @@ pub fn f32_ulps(left: f32, right: f32) -> Option<u64> {
 /// Shortest text that reads back to the same number, with an exponent if the number is far from 1.
 pub(crate) fn shortest(number: impl Into<f64> + Copy + Display + LowerExp) -> String {
     let real: f64 = number.into();
-    let plain = real == 0.0 || !real.is_finite() || (1e-4..1e9).contains(&real.abs());
+    let plain = real == 0.0 || !real.is_finite() || (f64::from(1e-4_f32)..1e9).contains(&real.abs());
     if plain { format!("{number}") } else { format!("{number:e}") }
 }

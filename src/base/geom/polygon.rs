@@ -1,4 +1,4 @@
-//! Polygons cut into triangles by exact tests.
+//! Polygons cut into triangles by exact tests, and convex polygons cut by a plane ([`clipped`]).
 //!
 //! A polygon is projected along the axis of the largest component of its normal, which drops one coordinate and rounds
 //! nothing. If the fan around the first corner covers the polygon, it is the result; otherwise ears are cut off until
@@ -78,16 +78,17 @@ pub fn triangulate(outline: &[[f32; 3]]) -> (Vec<[usize; 3]>, Option<PolygonFaul
 /// The part of a convex polygon where a linear function is not negative.
 pub fn clipped(corners: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (&here, &next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-        let (h, k) = (height(here), height(next));
-        if h >= 0.0 {
-            kept.push(here);
-        }
-        if (h > 0.0 && k < 0.0) || (h < 0.0 && k > 0.0) {
-            kept.push(here + h / (h - k) * (next - here));
-        }
-    }
+    kept.extend(clipped_corners(corners, height));
     kept
+}
+
+/// The corners of [`clipped`], without memory of their own.
+pub fn clipped_corners(corners: &[DVec3], height: impl Fn(DVec3) -> f64) -> impl Iterator<Item = DVec3> {
+    corners.iter().zip(corners.iter().cycle().skip(1)).flat_map(move |(&here, &next)| {
+        let (h, k) = (height(here), height(next));
+        let cut = ((h > 0.0 && k < 0.0) || (h < 0.0 && k > 0.0)).then(|| here + h / (h - k) * (next - here));
+        (h >= 0.0).then_some(here).into_iter().chain(cut)
+    })
 }
 
 /// Normal with twice the area as length: the sum of cross products of successive corners relative to the first.

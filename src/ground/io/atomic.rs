@@ -32,7 +32,8 @@ pub enum WriteError {
 /// Canonical paths of the files that were read since [`protect_inputs`].
 static INPUTS: OnceLock<Mutex<BTreeSet<PathBuf>>> = OnceLock::new();
 
-/// From now on, files that were read through this module are not overwritten by this process.
+/// From now on, this process does not overwrite files that it has read through [`super::read_limited`]. For a program
+/// of one command, which checks before its work the files that its arguments name.
 pub fn protect_inputs() {
     INPUTS.get_or_init(Mutex::default);
 }

@@ -92,7 +92,8 @@ fn quoted(text: &[u8]) -> String {
 
 /// The first `most` characters of a text, with hidden characters escaped; quotation marks stay.
 fn visible(text: &str, most: usize) -> String {
-    let escaped = |c: char| if matches!(c, '"' | '\'') { c.to_string() } else { c.escape_debug().to_string() };
     let more = if text.chars().nth(most).is_some() { "..." } else { "" };
-    text.chars().take(most).map(escaped).collect::<String>() + more
+    let cut: String = text.chars().take(most).collect();
+    // A quotation mark follows its own backslash only.
+    cut.escape_debug().to_string().replace("\\\"", "\"").replace("\\'", "'") + more
 }

@@ -2,8 +2,8 @@
 //!
 //! The reader uses `v`, `vt`, `vn` and `f`, so the whole file is one mesh. A face of n corners becomes n - 2 triangles
 //! ([`crate::geom::polygon`]). Triangle ids follow the order of the file, from 0; degenerate triangles count. Vertices
-//! are numbered by first use; unused vertices are dropped. If all corners have texture coordinates and normals, each
-//! combination with a position becomes a vertex; otherwise texture coordinates and normals are dropped.
+//! are numbered by first use; unused vertices are dropped. Texture coordinates that all corners have are kept, and so are
+//! normals: each combination with a position becomes a vertex. A word that begins with `#` begins a comment.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -227,8 +227,9 @@ fn with_digits(line: &str) -> Cow<'_, str> {
 
 fn expected(element: &ElementDef) -> String {
     let names: Vec<&str> = element.properties.keys().map(String::as_str).take(12).collect();
-    let more = if element.properties.len() > names.len() { " ..." } else { "" };
-    format!("a `{}` of `{}{more}`", visible(&element.name, LONGEST), visible(&names.join(" "), LONGEST))
+    let (more, names) = (element.properties.len() > names.len(), names.join(" "));
+    let more = if more && names.chars().count() <= LONGEST { " ..." } else { "" };
+    format!("a `{}` of `{}{more}`", visible(&element.name, LONGEST), visible(&names, LONGEST))
 }
 
 #[derive(Default)]

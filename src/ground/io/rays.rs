@@ -1,9 +1,9 @@
 //! Rays and hits as comma-separated tables.
 //!
 //! Rays: the header `ox,oy,oz,dx,dy,dz`, then one ray per line. Numbers are rounded to the nearest f32; directions are
-//! not renormalised.
+//! not renormalised. Numbers that are not finite or overflow f32, and zero directions, are rejected.
 //!
-//! Hits: the header `ray,triangle,t`, then a line per ray. `triangle` counts from 0 in the order of the mesh file; without
+//! Hits: the header `ray,triangle,t`, then a line per ray in their order. `triangle` counts from 0 in the order of the mesh file; without
 //! a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the same f32, or beyond f32 to the
 //! same f64. If a card's format overflows at a smaller value, a hit has the `inf` that the card computed.
 

@@ -30,7 +30,7 @@ pub fn least(coefficients: &[f64]) -> (f64, DVec3) {
 /// Returns the lowest samples that are at least `apart` from each other.
 fn lowest(directions: &[DVec3], values: &[f64], apart: f64) -> Vec<DVec3> {
     let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| (-values[b]).total_cmp(&-values[a]).then(a.cmp(&b)));
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]).then(a.cmp(&b)));
     let mut starts: Vec<DVec3> = Vec::new();
     for index in order {
         if starts.len() < STARTS && starts.iter().all(|start| start.distance(directions[index]) > apart) {

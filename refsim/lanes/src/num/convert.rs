@@ -31,6 +31,7 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     rounded(&to, unpack(from, bits))
 }
 
+#[inline]
 fn rounded(to: &Env, value: Unpacked) -> Outcome {
     match value {
         Unpacked::Nan { signaling } => {

@@ -10,7 +10,7 @@ use num_bigint::BigInt;
 use num_traits::One;
 
 thread_local! {
-    /// pi (`true`) and ln 2 (`false`) by number of places.
+    /// pi (`true`) and ln 2 (`false`) by number of places, kept because every sine needs pi.
     static KNOWN: RefCell<BTreeMap<(bool, u64), BigInt>> = const { RefCell::new(BTreeMap::new()) };
 }
 

@@ -48,6 +48,32 @@ fn mesh(jitter: &[(f32, f32)], columns: usize, rows: usize) -> (Vec<Vertex>, Vec
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
 
+    /// Two triangles with a common edge: no pixel twice, and together the same pixels as the convex quad's other split.
+    #[test]
+    fn a_common_edge_belongs_to_one_side(corners in prop::collection::vec(position(), 4), grid in grids(2u8..=8), convention in 0usize..4) {
+        let rules = RasterRules { subpixel_grid: grid, ..RULES };
+        let v: Vec<_> = corners.iter().map(|&(x, y)| at(x, y, W, H)).collect();
+        let s = state(W, H, CONVENTIONS[convention]);
+        let side = |p: usize, q: usize, r: usize| {
+            let c = |i: usize| (f64::from(corners[i].0), f64::from(corners[i].1));
+            let ((px, py), (qx, qy), (rx, ry)) = (c(p), c(q), c(r));
+            (qx - px) * (ry - py) - (rx - px) * (qy - py)
+        };
+        // Requires the other two vertices to be on different sides of the edge 0-2, farther away than the snapping
+        // error.
+        let (one, other) = (side(0, 2, 1), side(0, 2, 3));
+        if one.abs() < 40.0 || other.abs() < 40.0 || (one > 0.0) == (other > 0.0) {
+            return Ok(());
+        }
+        let both = counts(&[[&v[0], &v[1], &v[2]], [&v[0], &v[2], &v[3]]], &s, &rules);
+        prop_assert!(both.iter().all(|&n| n <= 1));
+        // In a convex quad the other diagonal covers the same pixels.
+        if side(1, 3, 0).min(side(1, 3, 2)) < -40.0 && side(1, 3, 0).max(side(1, 3, 2)) > 40.0 {
+            let other = counts(&[[&v[0], &v[1], &v[3]], [&v[1], &v[2], &v[3]]], &s, &rules);
+            prop_assert_eq!(both, other);
+        }
+    }
+
     #[test]
     fn a_mesh_covers_each_pixel_once(
         jitter in prop::collection::vec(prop_oneof![(-1.2f32..1.2, -1.2f32..1.2), Just((0.0, 0.0)), Just((0.5, -0.5))], 80),
@@ -58,6 +84,27 @@ proptest! {
         let list: Vec<_> = triangles.iter().map(|t| t.map(|i| &vertices[i])).collect();
         let found = counts(&list, &state(W, H, CONVENTIONS[convention]), &rules);
         prop_assert!(found.iter().all(|&n| n == 1), "{:?}", found.iter().enumerate().find(|(_, n)| **n != 1));
+    }
+
+    /// A fan around any point, with its rim outside the target.
+    #[test]
+    fn a_fan_covers_each_pixel_once(centre in (0.0f32..W as f32, 0.0f32..H as f32), on_grid in any::<bool>(), count in 3usize..24) {
+        let (cx, cy) = if on_grid { (centre.0.floor(), centre.1.floor()) } else { centre };
+        let mut vertices = vec![at(cx, cy, W, H)];
+        // Points of the rim on a large square, in order.
+        for i in 0..=count {
+            let t = 4.0 * (i % count) as f32 / count as f32;
+            let (side, along) = (t.floor() as u32, 240.0 * t.fract() - 120.0);
+            let (x, y) = match side { 0 => (along, -120.0), 1 => (120.0, along), 2 => (-along, 120.0), _ => (-120.0, -along) };
+            vertices.push(at(x + 18.0, y + 14.0, W, H));
+        }
+        let list: Vec<_> = assemble(Primitive::TriangleFan, vertices.len()).unwrap().map(|t| t.map(|i| &vertices[i])).collect();
+        // With three or four points the rim may cross the target's corners; then only double coverage is ruled out.
+        let found = counts(&list, &state(W, H, CONVENTIONS[0]), &RULES);
+        prop_assert!(found.iter().all(|&n| n <= 1));
+        if count >= 8 {
+            prop_assert!(found.iter().all(|&n| n == 1));
+        }
     }
 
     /// Quads, `misses` and `covers` agree with `coverage` of each pixel.

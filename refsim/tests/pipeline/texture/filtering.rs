@@ -5,8 +5,8 @@ use super::rational::{Rational, assert_nearest};
 use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::texture::{
-    AddressMode, ChannelValue, Filter, Image, Lod, SampleRules, SamplerState, SignedTexelMinimum, TargetRounding,
-    TexelFormat, TextureKind, sample, unbound,
+    AddressMode, ChannelValue, Filter, Image, Lod, MipFilter, SampleRules, SamplerState, SignedTexelMinimum,
+    TargetRounding, TexelFormat, TextureKind, sample, unbound,
 };
 
 fn rules(format: Format) -> SampleRules {
@@ -81,6 +81,59 @@ proptest! {
 
 fn image_border(format: TexelFormat, component: usize) -> ChannelValue {
     refsim::texture::decode(format, 0, SignedTexelMinimum::Clamp).0[component]
+}
+
+/// 8x8 with four levels; level i holds 10 * i in every texel.
+fn stepped(kind: TextureKind, depth: u32) -> Image {
+    let mut image = Image::new(TexelFormat::L8, kind, [8, 8, depth], 4).unwrap();
+    for (i, level) in image.levels().to_vec().into_iter().enumerate() {
+        let end = level.offset + level.slice_bytes * level.slices as usize;
+        image.bytes_mut()[level.offset..end].fill(10 * i as u8);
+    }
+    image
+}
+
+#[test]
+fn levels_follow_the_level_of_detail() {
+    for (kind, depth) in [(TextureKind::Cube, 1), (TextureKind::Volume, 8)] {
+        let image = stepped(kind, depth);
+        let read = |mip, filter, lod: f32, bias: f32, first| {
+            let state = SamplerState {
+                mip,
+                min: filter,
+                mag: filter,
+                lod_bias: bias.to_bits(),
+                max_mip_level: first,
+                ..SamplerState::default()
+            };
+            let value = sample(
+                Some(&image),
+                &state,
+                &rules(Format::FP32),
+                bits([0.3, 0.4, 0.2, 0.]),
+                Lod::Level(lod.to_bits()),
+            );
+            f32::from_bits(value[0]) * 255.0
+        };
+        for filter in [Filter::Nearest, Filter::Linear] {
+            let nearest = |lod, bias, first| read(MipFilter::Nearest, filter, lod, bias, first).round();
+            assert_eq!(nearest(0.4, 0.0, 0), 0.0);
+            assert_eq!(nearest(0.5, 0.0, 0), 10.0);
+            assert_eq!(nearest(2.2, 0.0, 0), 20.0);
+            assert_eq!(nearest(99.0, 0.0, 0), 30.0);
+            assert_eq!(nearest(-99.0, 0.0, 0), 0.0);
+            assert_eq!(nearest(0.0, 1.0, 0), 10.0);
+            assert_eq!(nearest(0.0, 0.0, 2), 20.0);
+            assert_eq!(nearest(f32::NAN, 0.0, 0), 0.0);
+            assert_eq!(nearest(f32::INFINITY, 0.0, 0), 30.0);
+            assert_eq!(nearest(f32::NEG_INFINITY, 0.0, 1), 10.0);
+            assert_eq!(read(MipFilter::None, filter, 9.0, 0.0, 0), 0.0);
+            let linear = |lod| read(MipFilter::Linear, filter, lod, 0.0, 0);
+            assert!((linear(1.5) - 15.0).abs() < 1e-4);
+            assert!((linear(0.25) - 2.5).abs() < 1e-4);
+            assert!((linear(7.5) - 30.0).abs() < 1e-4);
+        }
+    }
 }
 
 #[test]

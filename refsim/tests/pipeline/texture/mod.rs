@@ -1,5 +1,5 @@
-//! Tests of `refsim::texture`: filtering compared with big rationals, addressing with a naive model,
-//! stores exhaustively, and robustness against arbitrary bit patterns.
+//! Tests of `refsim::texture`: filtering compared with big rationals, addressing with a naive model, stores
+//! exhaustively, and robustness against arbitrary bit patterns.
 
 mod addressing;
 mod filtering;

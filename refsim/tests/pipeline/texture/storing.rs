@@ -1,10 +1,13 @@
-//! Encoding of texels.
+//! Encoding of texels, and decoding of the encoded.
 
 use super::rational::Rational;
 use num_bigint::BigInt;
 use proptest::prelude::*;
 use refsim::num::Format;
-use refsim::texture::{Channel, Image, Region, TargetRounding, TexelFormat, TextureError, TextureKind, encode_channel};
+use refsim::texture::{
+    Channel, Image, Region, SignedTexelMinimum, TargetRounding, TexelFormat, TextureError, TextureKind, decode, encode,
+    encode_channel,
+};
 
 /// Reference: `clamp(value) * scale`, rounded with ties away from zero or truncated; with big integers.
 fn model(format: Format, bits: u32, scale: i64, signed: bool, rounding: TargetRounding) -> i64 {
@@ -82,6 +85,18 @@ fn impossible_images_are_refused() {
     assert!(matches!(new(TextureKind::D2, [u32::MAX; 3], u32::MAX), Err(TextureError::Extent { .. })));
     let bytes = Image::from_bytes(TexelFormat::L8, TextureKind::D2, [2, 2, 1], 1, vec![0; 5]);
     assert_eq!(bytes, Err(TextureError::DataSize { unit: "bytes", expected: 4, found: 5 }));
+}
+
+#[test]
+fn float_texels_come_back_as_they_were_stored() {
+    for (texel, format) in [(TexelFormat::R16f, Format::FP16), (TexelFormat::R24f, Format::FP24)] {
+        for bits in (0..=format.mask()).step_by(if format.width() > 16 { 101 } else { 1 }) {
+            let raw = encode(texel, format, [bits, 0, 0, 0], TargetRounding::Nearest);
+            let back = decode(texel, raw, SignedTexelMinimum::Clamp).to_format(format);
+            let want = if format.is_nan(bits) { format.canonical_nan().unwrap() } else { bits };
+            assert_eq!(back, [want, format.one(), format.one(), format.one()], "{texel} {bits:#x}");
+        }
+    }
 }
 
 #[test]

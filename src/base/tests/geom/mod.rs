@@ -6,6 +6,7 @@ mod filter;
 mod integer;
 mod mesh;
 mod orient;
+mod polygon;
 mod random;
 mod ratio;
 mod ray;

@@ -13,30 +13,60 @@ use super::surface::SurfaceMoments;
 
 /// Maximum number of halvings of a texel's side; texels that need more are long.
 const MAX_HALVINGS: u32 = 4;
-/// Number of texels whose pieces are cached.
-const TEXELS: usize = 4096;
+/// Number of texels whose pieces are cached; a power of two.
+const SLOTS: usize = 4096;
+
 /// Number of cached means of pairs.
 const PAIRS: usize = 1 << 16;
 
 /// Cache of pieces of recent near texels, and of means of pairs with many pieces, which both texels need.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct PieceCache<const N: usize> {
-    /// For each texel, the 4^k pieces after k halvings; the quarters of a piece are adjacent.
-    pieces: BTreeMap<usize, Vec<Vec<Moments>>>,
+    slots: Vec<TexelPieces>,
     means: BTreeMap<[usize; 2], [f64; N]>,
 }
 
-/// The pieces of a texel up to a number of halvings.
-fn pieces_of(surface: &SurfaceMoments, texel: usize, halvings: u32) -> Vec<Vec<Moments>> {
-    let (face, window) = surface.window(texel);
-    let whole = surface.level(0)[texel];
-    let (mut windows, mut area, mut all) = (vec![window], whole.area, vec![vec![whole]]);
-    for _ in 0..halvings {
-        area *= 0.25;
-        all.push(windows.iter().flat_map(|window| quarters(face, *window, area)).collect());
-        windows = windows.iter().flat_map(Window::quarters).collect();
+/// The pieces of one texel: 4^k after k halvings; the quarters of a piece are adjacent.
+#[derive(Clone, Debug)]
+struct TexelPieces {
+    texel: usize,
+    halvings: Vec<Vec<Moments>>,
+}
+
+/// An index that no texel has.
+const NONE: usize = usize::MAX;
+
+impl<const N: usize> PieceCache<N> {
+    pub(super) fn new() -> Self {
+        Self { slots: vec![TexelPieces { texel: NONE, halvings: Vec::new() }; SLOTS], means: BTreeMap::new() }
     }
-    all
+
+    /// Ensures that a texel's pieces are cached, and returns their slot.
+    fn fetch(&mut self, surface: &SurfaceMoments, texel: usize, halvings: u32) -> usize {
+        let slot = texel % SLOTS;
+        let kept = &mut self.slots[slot];
+        if kept.texel != texel || kept.halvings.len() <= halvings as usize {
+            kept.fill(surface, texel, halvings);
+        }
+        slot
+    }
+}
+
+impl TexelPieces {
+    fn fill(&mut self, surface: &SurfaceMoments, texel: usize, halvings: u32) {
+        let (face, window) = surface.window(texel);
+        let whole = surface.level(0)[texel];
+        self.texel = texel;
+        self.halvings.resize_with(halvings as usize + 1, Vec::new);
+        self.halvings.iter_mut().for_each(Vec::clear);
+        self.halvings[0].push(whole);
+        let (mut windows, mut area) = (vec![window], whole.area);
+        for pieces in &mut self.halvings[1..] {
+            area *= 0.25;
+            pieces.extend(windows.iter().flat_map(|window| quarters(face, *window, area)));
+            windows = windows.iter().flat_map(Window::quarters).collect();
+        }
+    }
 }
 
 fn quarters(face: &FaceMap, window: Window, area: f64) -> [Moments; 4] {
@@ -94,17 +124,18 @@ fn quartered_mean<const N: usize>(
     halvings: u32,
     cache: &mut PieceCache<N>,
 ) -> [f64; N] {
-    if cache.pieces.len() + 2 > TEXELS {
-        cache.pieces.clear();
-    }
-    for texel in [from, to] {
-        let pieces = cache.pieces.entry(texel).or_default();
-        if pieces.len() <= halvings as usize {
-            *pieces = pieces_of(surface, texel, halvings);
-        }
-    }
-    let [from, to] = [from, to].map(|texel| &cache.pieces[&texel][..]);
-    Pair { kernel, from, to, halvings: halvings as usize }.mean(Piece::WHOLE, Piece::WHOLE)
+    let slots = [from, to].map(|texel| cache.fetch(surface, texel, halvings));
+    let displaced = if slots[0] == slots[1] && from != to {
+        // Both texels have the same slot, which now contains the second texel's pieces.
+        let mut pieces = TexelPieces { texel: NONE, halvings: Vec::new() };
+        pieces.fill(surface, from, halvings);
+        Some(pieces)
+    } else {
+        None
+    };
+    let from = &displaced.as_ref().unwrap_or(&cache.slots[slots[0]]).halvings;
+    Pair { kernel, from, to: &cache.slots[slots[1]].halvings, halvings: halvings as usize }
+        .mean(Piece::WHOLE, Piece::WHOLE)
 }
 
 impl<const N: usize> Pair<'_, N> {

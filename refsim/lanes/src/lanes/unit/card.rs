@@ -120,9 +120,10 @@ impl<U: CardUnit> CardLane<U> {
     }
 
     /// Computes an operation that every arithmetic has; the result is a number.
-    fn number(&self, operation: Op, operands: &[i32]) -> i32 {
-        let operands = [0, 1, 2].map(|i: usize| operands.get(i).copied().unwrap_or_default().cast_unsigned());
-        self.word(operation, operands).unwrap_or(NAN).cast_signed()
+    fn number<const N: usize>(&self, operation: Op, operands: [i32; N]) -> i32 {
+        let mut words = [0; 3];
+        words[..N].copy_from_slice(&operands.map(i32::cast_unsigned));
+        self.word(operation, words).unwrap_or(NAN).cast_signed()
     }
 
     /// Computes an operation that the unit does not have.
@@ -171,7 +172,7 @@ impl<U: CardUnit> CardLane<U> {
 macro_rules! by_word {
     ($($name:ident($a:ident $(, $more:ident)*) = $operation:ident;)*) => {
         $(fn $name(&self, $a: i32 $(, $more: i32)*) -> i32 {
-            self.number(Op::$operation, &[$a $(, $more)*])
+            self.number(Op::$operation, [$a $(, $more)*])
         })*
     };
 }

@@ -258,8 +258,8 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
     }
     let unit = select(-places, max(top, lowest) - places, float);
     let shift = unit - e;
-    // A shift below 2 occurs only in fixed point, where m.z is 0. Then the number's last 32 bits are 0, but for their
-    // first one if the shift is 1.
+    // A shift below 2 occurs only in fixed point, for integers far above the unit. Of their last 32 bits only the first
+    // can be 1, and only if the shift is 1. (Normalized formats have 16 bits or fewer, and these are 0.)
     var y = n_right(m, u32(max(shift, 2) - 2));
     y = select(y, vec3<u32>(0u, select(0u, m.y << 1u, shift == 1), 0u), shift < 2);
     let kept = (y.z >> 2u) | (y.y << 30u);
