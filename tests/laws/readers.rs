@@ -162,6 +162,12 @@ fn good_files() -> Vec<GoodFile> {
         file("m.obj", stored("fixtures/models/square.obj"), |bytes, name| drop(io::parse_obj(bytes, name))),
         file("m.ply", stored("fixtures/models/square.ply"), |bytes, name| drop(io::parse_ply(bytes, name))),
         file("m.stl", stored("fixtures/models/square.stl"), |bytes, name| drop(io::parse_stl(bytes, name))),
+        file(
+            "a.stl",
+            b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid x\n"
+                .to_vec(),
+            |bytes, name| drop(io::parse_stl(bytes, name)),
+        ),
         file("m.gltf", stored("fixtures/models/square.gltf"), |bytes, name| {
             let mut none = |_: &Path| Err(std::io::Error::other("no file beside it"));
             drop(io::parse_gltf(bytes, name, &mut none));

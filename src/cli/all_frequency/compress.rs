@@ -132,6 +132,7 @@ fn findings(
     // Weights and representatives in single precision.
     let clustered = 4 * (all + weights) as u64;
     let blocks: usize = coded.segments.iter().map(|part| part.representatives.block_count()).sum();
+    // The sum of no numbers is -0, which would be printed.
     let sum = |of: &dyn Fn(&SegmentTally) -> f64| 0.0 + tallies.iter().map(of).sum::<f64>();
     let squares = sum(&|part| part.squares);
     let share = |error: f64| if error > 0.0 { error / squares } else { 0.0 };

@@ -61,6 +61,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let path = args.of.out.as_path();
     let ground_model = path.with_extension("ground.obj");
+    // No argument names this file, and the other two files would be written before it.
     let is_model = matches!((args.of.model.canonicalize(), ground_model.canonicalize()), (Ok(a), Ok(b)) if a == b);
     if args.ground.is_some() && is_model {
         let what = format!("the model of the ground, {}, would overwrite the model", ground_model.display());

@@ -78,7 +78,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let bar = ProgressBar::new("vectors", options.vectors as u64 + 1).quicker("fewer `--clusters`");
     let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, options.vectors as u64 + 1);
     let Compression { mut clustering, steps } = compress(&signal, &options, observe).map_err(|error| {
-        Problem::usage(error.to_string(), error.advice().unwrap_or("see `crossbar cpca compress --help`"))
+        Problem::usage(error.to_string(), "change `--clusters` or `--vectors`, or use a larger signal")
     })?;
     drop(bar);
     let provenance = Some(args.provenance(&options, &clustering, &steps));

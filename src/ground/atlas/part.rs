@@ -4,11 +4,14 @@ use glam::DVec3;
 
 use super::place::FacePlace;
 use super::surface::combined;
-use crate::geom::polygon::clipped;
+use crate::geom::polygon::clipped_corners;
 
 /// Part of a face under a rectangle of its texels: one or two flat convex polygons, on both sides of the diagonal.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TexelPart(Vec<Vec<DVec3>>);
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TexelPart {
+    corners: [[DVec3; 5]; 2],
+    counts: [usize; 2],
+}
 
 impl TexelPart {
     /// Clips the face with these corners to the rectangle between two points in texel coordinates.
@@ -17,14 +20,22 @@ impl TexelPart {
         // Scaled distance from the diagonal, in texels squared: positive on the side of corner (x + width, y).
         let [x, y, width, height] = [place.x, place.y, place.width, place.height].map(f64::from);
         let side = |at: DVec3| (at.x - x) * height - (at.y - y) * width;
-        let halves = [1.0, -1.0].into_iter().filter(|sign| ring.iter().any(|&at| sign * side(at) > 0.0));
-        let on_face = |at: DVec3| combined(corners, place.weights(at.x, at.y));
-        Self(halves.map(|sign| clipped(&ring, |at| sign * side(at)).into_iter().map(on_face).collect()).collect())
+        let mut part = Self { corners: [[DVec3::ZERO; 5]; 2], counts: [0; 2] };
+        for (half, sign) in [1.0, -1.0].into_iter().enumerate() {
+            if ring.iter().all(|&at| sign * side(at) <= 0.0) {
+                continue;
+            }
+            for at in clipped_corners(&ring, |at| sign * side(at)) {
+                part.corners[half][part.counts[half]] = combined(corners, place.weights(at.x, at.y));
+                part.counts[half] += 1;
+            }
+        }
+        part
     }
 
     /// Iterates over the polygons, each a ring of three to five points.
     pub fn polygons(&self) -> impl Iterator<Item = &[DVec3]> {
-        self.0.iter().map(Vec::as_slice)
+        self.corners.iter().zip(self.counts).map(|(ring, count)| &ring[..count]).filter(|ring| !ring.is_empty())
     }
 
     /// Distance from a point to the farthest corner.

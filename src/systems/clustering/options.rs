@@ -1,4 +1,4 @@
-//! Options of the compression, and errors.
+//! Options of the compression.
 
 use super::Signal;
 use crate::error::{InputError, ensure};
@@ -90,9 +90,10 @@ impl CpcaOptions {
     pub(super) fn start_points(&self, signal: &Signal) -> Result<Vec<u32>, InputError> {
         let (points, dimension) = (signal.points(), signal.dimension());
         let &Self { clusters, vectors, vq_iterations, iterations, .. } = self;
-        ensure!((1..=points).contains(&clusters),
-            "expected 1 to {points} clusters, one per point at most, found {clusters}";
-            help "choose fewer clusters, or use a larger signal");
+        ensure!(
+            (1..=points).contains(&clusters),
+            "expected 1 to {points} clusters, one per point at most, found {clusters}"
+        );
         ensure!(
             vectors <= dimension,
             "expected at most {dimension} vectors per cluster, one per dimension, found {vectors}"

@@ -32,7 +32,8 @@ const LIST_BATCH: usize = 65_536;
 pub struct Recording<'a> {
     /// Creates an observer of texel reads per bucket. The card then draws with the scalar executor, which is slow.
     pub new_observer: Option<&'a (dyn Fn() -> Box<dyn TexelObserver> + Sync)>,
-    /// Called after each bucket with the number of finished buckets and their total.
+    /// Called after each bucket, in several threads, with the number of finished buckets and their total; a larger number
+    /// may come before a smaller one.
     pub done: Option<&'a (dyn Fn(usize, usize) + Sync)>,
 }
 

@@ -57,6 +57,13 @@ fn cut(polygons: &[&[DVec3]], subdivision: Subdivision) -> Vec<Patch> {
 }
 
 #[test]
+fn a_triangle_is_cut_into_n_squared_parts() {
+    let patches = cut(&[&SQUARE[..3]], Subdivision::PerSide(2));
+    assert_eq!(patches.len(), 4);
+    assert_abs_diff_eq!(patches.iter().map(Patch::area).sum::<f64>(), 0.5, epsilon = 1e-14);
+}
+
+#[test]
 fn two_halves_make_a_square_and_a_kink_does_not() {
     let outlines = |triangles: [[DVec3; 3]; 2]| -> Vec<Vec<DVec3>> {
         let mesh = Mesh::new(triangles.concat().into_iter().map(narrow).collect(), vec![[0, 1, 2], [3, 4, 5]]);

@@ -46,14 +46,16 @@ impl TryFrom<String> for Tangents {
 
     fn try_from(text: String) -> Result<Self, String> {
         let axis = || {
-            let numbers: Vec<f64> = text.split(',').map(|number| number.parse().ok()).collect::<Option<_>>()?;
+            let numbers: Vec<f64> = text.split(',').map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
             let axis = DVec3::from_array(numbers.try_into().ok()?);
             unit(axis).map(|_| Self::Along(axis))
         };
         match text.as_str() {
             "any" => Ok(Self::Any),
             "texture" => Ok(Self::Texture),
-            _ => axis().ok_or_else(|| format!("expected tangents `any`, `texture` or an axis, found `{text}`")),
+            _ => axis().ok_or_else(|| {
+                format!("expected tangents `any`, `texture` or an axis X,Y,Z of finite length above 0, found `{text}`")
+            }),
         }
     }
 }

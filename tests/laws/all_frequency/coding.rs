@@ -40,11 +40,13 @@ fn as_many_vectors_as_members_leave_the_matrices_themselves() {
     let vertices = vertices(&mesh);
     let maps = trace(&mesh, &vertices, &all(&vertices));
     for reflectance in [Reflectance::Diffuse, Reflectance::Factored(factors(4))] {
-        for part in segments(&vertices, &maps, &reflectance) {
+        let parts = segments(&vertices, &maps, &reflectance);
+        assert!(parts.iter().any(|part| part.signal.sum_of_squares() > 1.0), "some transfer");
+        for part in parts {
             let signal = part.signal.clone();
             let clustering = compressed(part, vertices.len()).clustering;
-            // Eigenvalues of a cluster below 2^-44 times the largest are treated as rounding: in length a factor of
-            // 2^-22 for each of at most 42 vectors.
+            // A dropped eigenvalue is at most 2^-44 of the largest, so at most 42 of them leave sqrt(42) 2^-22 = 1.6e-6
+            // in length.
             let bound = 2e-6 * signal.sum_of_squares().sqrt();
             let mut found = vec![0.0; signal.dimension()];
             for point in 0..signal.points() {

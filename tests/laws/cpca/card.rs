@@ -86,7 +86,7 @@ fn a_frame_is_counted_and_timed() {
             run_per_triangle: of_groups as f64 / (3 * drawn) as f64,
         };
         let estimate = frame_time(&r300, &counts.log(), &host).expect("a time");
-        assert!(parts < size.representatives() || estimate.products == time.products);
+        assert!(vectors > 2 || estimate.products == time.products, "clusters of full rank");
         assert_eq!(estimate.triangles, time.triangles);
         assert!(estimate.draws <= time.draws, "{estimate:?} {time:?}");
         let [estimated, drawn] = [&counts.log(), &log].map(|log| vertex_clocks(&r300, log));

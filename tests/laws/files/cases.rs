@@ -92,4 +92,9 @@ proptest! {
             draw(&setup);
         }
     }
+
+    #[test]
+    fn arbitrary_bytes_do_not_panic(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        read(&bytes);
+    }
 }

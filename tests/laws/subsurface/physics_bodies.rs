@@ -1,4 +1,4 @@
-//! Contour integrals over polygons, compared with brute force, with the plane and with solid angles.
+//! Contour integrals over polygons and spheres, compared with brute force, with the plane and with solid angles.
 
 use approx::assert_relative_eq;
 use crossbar::elementary::atan2;
@@ -74,4 +74,11 @@ fn without_absorption_factors_in_the_plane_are_solid_angles() {
         let exact = (angles[0] + angles[1]) / (4.0 * PI);
         assert_relative_eq!(point_to_polygon(&dipole, point, &triangle), exact, max_relative = 1e-12);
     }
+}
+
+/// Chords of a sphere are shorter than twice the radius, and every ring of chords has the area of a flat ring.
+#[test]
+fn without_absorption_a_sphere_loses_energy() {
+    let sums = [1.0, 10.0, 100.0].map(|radius: f64| format!("{:.4}", medium(1.0, 0.0).disc(2.0 * radius)));
+    assert_eq!(sums, ["0.3200", "0.8660", "0.9863"], "docs/papers/subsurface.md");
 }

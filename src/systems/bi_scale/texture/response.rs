@@ -22,7 +22,7 @@ pub struct BidirectionalTexture {
     samples: Vec<[f32; 3]>,
 }
 
-/// Largest size of a file of samples that is read, in bytes (8 GiB).
+/// Largest size of samples that are made or read, in bytes (8 GiB).
 pub(super) const MAX_BYTES: u64 = 1 << 33;
 
 /// The number of samples of a texture. Fails with [`InputError`] for a size out of range, or for more samples than a

@@ -21,7 +21,8 @@ pub struct TransferSize {
 const CHANNELS: usize = 3;
 
 impl TransferSize {
-    /// Number of values after compression (section 4.1): m_p n' + m_c (n' + 1) N_r N_i.
+    /// Number of values after compression (section 4.1), for one matrix per vertex and clusters of full rank: m_p n' +
+    /// m_c (n' + 1) N_r N_i.
     pub fn stored_numbers(&self) -> usize {
         self.vertices * self.vectors + self.representatives() * self.rows * self.columns
     }

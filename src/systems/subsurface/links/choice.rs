@@ -76,8 +76,11 @@ impl<const N: usize> Candidate<N> {
 /// the highest factor is replaced by its children; texels are not replaced. Returns 1 + 3 k links in the order of the
 /// tree.
 pub(super) fn adaptive<const N: usize>(texel: &mut TexelFactors<'_, '_, N>, count: usize) -> Vec<Candidate<N>> {
-    let mut found = vec![Candidate::new(texel, 0)];
-    let mut queue = BinaryHeap::from([(found[0].rank(), 0)]);
+    // Each division removes one cluster from the queue and adds four.
+    let mut found = Vec::with_capacity(count + count / 3 + 1);
+    found.push(Candidate::new(texel, 0));
+    let mut queue = BinaryHeap::with_capacity(count + 3);
+    queue.push((found[0].rank(), 0));
     while queue.len() + 3 <= count {
         let Some(&(_, top)) = queue.peek() else { break };
         let Some(first) = texel.children(found[top].node) else { break };

@@ -37,7 +37,7 @@ impl<'a, const N: usize> Factors<'a, N> {
 
     /// A receiver that computes many factors; it is fastest for successive near texels.
     pub fn receiver(&self) -> Receiver<'_, N> {
-        Receiver { factors: self, cache: PieceCache::default() }
+        Receiver { factors: self, cache: PieceCache::new() }
     }
 }
 

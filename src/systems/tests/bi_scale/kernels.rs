@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crossbar_systems::bi_scale::kernels::{BlockEdges, BlockGrid, DisplayKernel, ListSumKernel, LocalLayout};
+use crossbar_systems::bi_scale::kernels::{BlockEdges, BlockGrid, DisplayKernel, ListSumKernel, LocalLayout, programs};
 use refsim::isa::Version;
 
-use crate::card::WrittenKernel;
+use crate::card::{WrittenKernel, checked};
 use crate::device;
 
 #[test]
@@ -69,4 +69,13 @@ fn nine_directions_take_a_third_of_a_program() {
     assert_eq!(slots.texture, 36);
     assert!((130..=160).contains(&slots.arithmetic), "{}", slots.arithmetic);
     assert!(kernel.text().contains("dcl_volume s0"));
+}
+
+#[test]
+fn every_program_runs_on_the_geforce_gtx_280() {
+    for (name, text) in programs().into_iter().filter(|(_, text)| !text.starts_with("ps_2_a")) {
+        for profile in ["gt200", "ideal-fp32"].map(device) {
+            checked(&profile, name.clone(), &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        }
+    }
 }

@@ -37,4 +37,8 @@ fn slots_are_counted_as_the_device_counts_them() {
             assert!(refused.is_err(), "{}: {most} vectors are not the most", kernel(most).name());
         }
     }
+    // Pure principal components in Figure 10: 20 vectors of 24 functions.
+    let kernel = |version| VertexKernel { shading: VertexShading::Glossy { registers: 6 }, vectors: 20, version };
+    kernel(Version::Vs2_0).checked(&device("r300")).unwrap_or_else(|e| panic!("{e}"));
+    assert!(kernel(Version::Vs1_1).checked(&device("r300")).is_err());
 }

@@ -48,7 +48,7 @@ pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 /// Numbers of directions, and vertices with defects.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VisibilityCounts {
-    /// Directions above the horizon of their vertex.
+    /// Directions above the horizon of their vertex, without those behind all triangles on which it lies.
     pub above: u64,
     /// Directions in which a ray was cast; the result of all others is certain.
     pub traced: u64,

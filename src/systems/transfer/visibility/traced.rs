@@ -16,7 +16,7 @@ use crate::transfer::{LocalFrame, Occluders, RayOrigin, SkyPart, Vertices, origi
 /// the middle of a face is 0.0332, which is rounded up.
 const TEXEL_SINE: f64 = 0.034;
 
-/// The fine directions of a vertex in which rays must be cast, and counts of the others.
+/// The fine directions of a vertex in which rays must be cast.
 #[derive(Debug, Default)]
 struct UndecidedDirections {
     fine: Vec<u32>,
