@@ -1,6 +1,7 @@
 //! Conclusion of the study, in sentences.
 
-use super::{MethodRow, RadiosityOutcome, SolveMethod, StopReason, SweepRow};
+use super::outcome::{MethodRow, RadiosityOutcome};
+use super::{SolveMethod, StopReason, SweepRow};
 use crate::report::words::{counted, percent};
 use crate::report::{Findings, Tone};
 
@@ -18,8 +19,8 @@ pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
     tally(|stopped| stopped == StopReason::Iterations, "ran out of iterations", Tone::Neutral);
 }
 
-/// Row with the largest mean error, or if there is none, with the largest relative error; `None` if there is no direct
-/// solution to compare with.
+/// The row with the largest mean error; of rows with equal mean errors, the one with the largest relative error. `None`
+/// without a direct solution to compare with.
 pub(super) fn least_accurate(rows: &[MethodRow]) -> Option<&MethodRow> {
     let size = |row: &&MethodRow| row.error.map(|error| [error.bias.abs(), error.relative]);
     let rows = rows.iter().filter(|row| row.error.is_some() && row.method != SolveMethod::DIRECT);
@@ -30,7 +31,7 @@ fn accuracy(rows: &[MethodRow]) -> Option<String> {
     let worst = least_accurate(rows)?;
     let error = worst.error?;
     Some(match error.not_finite {
-        // Every patch emits.
+        // For example because every patch emits.
         0 if error.relative_unlit == 0.0 => {
             format!("{} is the least accurate: its largest relative error is {}.", worst.label, percent(error.relative))
         }

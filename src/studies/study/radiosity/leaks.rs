@@ -52,8 +52,8 @@ pub(super) fn rows(
 const EXPLAINED: &str = "Each row recomputes the form factors with rays of the Ray Engine, on that card or in that \
     format. passes_s is the modelled time of the card's passes. differing counts rays whose hit differs from the exact \
     first hit: in the triangle, or in whether there is one. factors is the sum of the absolute changes of a patch's \
-    form factors against those of the host's rays: its mean over the patches, and the largest. The last three columns are errors of the direct solution, against the \
-    direct solution with the host's form factors: the largest error relative to the brightest patch; the largest \
+    form factors against those of the host's rays: its mean over the patches, and the largest. The last three \
+    columns are errors of the direct solution, against the direct solution with the host's form factors: the largest error relative to the brightest patch; the largest \
     relative error of a patch that does not emit; and the signed mean of these relative errors.";
 
 pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {

@@ -7,6 +7,7 @@ mod conclusion;
 mod leaks;
 mod method;
 mod options;
+mod outcome;
 mod pictures;
 mod report;
 mod solve;
@@ -15,7 +16,7 @@ mod tables;
 mod time;
 
 use crate::picture::metrics::value_error;
-use crate::radiosity::form_factor::{RowSums, VisibilityParameters};
+use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::rate::RateError;
 use crate::radiosity::{DrawError, Patches, System};
 use crate::report::{Findings, Provenance};
@@ -27,56 +28,16 @@ pub(in crate::study) use method::no_card;
 pub use method::{CardMethod, SolveMethod};
 pub use options::{Factors, Parameters, RadiosityOptions};
 
-use leaks::LeakRow;
 use method::StopReason;
+use outcome::{MethodRow, RadiosityOutcome};
+use pictures::PictureRenderer;
 pub(in crate::study) use pictures::exposure;
-use pictures::{IterationPicture, PictureRenderer, Pictures};
 pub(in crate::study) use solve::SolutionError;
 use sweep::{SweepRow, require_fit};
-use time::CardFacts;
 
 library_errors! {
     DrawError => "radiosity::display";
     RateError => "radiosity::rate";
-}
-
-#[derive(Debug)]
-struct MethodRow {
-    method: SolveMethod,
-    /// Name of the method, unique in a study and valid as a file name.
-    label: String,
-    radiosity: Vec<[f64; 3]>,
-    /// Figure 3's error, initially and after each iteration: the mean squared residual over all channels.
-    history: Vec<f64>,
-    /// Final residual relative to the emittance, both in Euclidean norms.
-    residual: f64,
-    stopped: StopReason,
-    /// Error of the energy balance, relative to the emitted power; the maximum over the channels.
-    energy_balance_error: f64,
-    /// Error compared with the direct solution, if that was requested.
-    error: Option<SolutionError>,
-    /// `None` for solvers of the host.
-    card: Option<CardFacts>,
-    pictures: Pictures,
-}
-
-impl MethodRow {
-    fn iterations(&self) -> usize {
-        self.history.len().saturating_sub(1)
-    }
-}
-
-#[derive(Debug)]
-struct RadiosityOutcome {
-    patches: Patches,
-    /// Row sums before closure was enforced.
-    found_sums: RowSums,
-    leaks: Vec<LeakRow>,
-    /// Pixel value per unit of radiance.
-    exposure: f64,
-    rows: Vec<MethodRow>,
-    frames: Vec<IterationPicture>,
-    sweep: Vec<SweepRow>,
 }
 
 impl Study for Parameters {

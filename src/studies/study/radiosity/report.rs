@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::conclusion::{conclude, least_accurate};
+use super::outcome::{MethodRow, RadiosityOutcome};
 use super::pictures::IterationPicture;
-use super::{MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow, leaks, tables};
+use super::{Parameters, SolveMethod, SweepRow, leaks, tables};
 use crate::geom::vector::{narrow, place_bits};
 use crate::picture::RgbImage;
 use crate::radiosity::display::SmoothVertex;

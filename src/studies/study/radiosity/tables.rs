@@ -1,6 +1,7 @@
 //! Tables of the study.
 
-use super::{Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
+use super::outcome::RadiosityOutcome;
+use super::{Parameters, SolutionError, SolveMethod, StopReason};
 use crate::report::{Cell, Table};
 
 pub(super) fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {

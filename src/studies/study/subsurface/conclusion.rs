@@ -2,7 +2,8 @@
 
 use std::cmp::Reverse;
 
-use super::{AngleBin, BinError, GatherWay, Parameters, SubsurfaceOutcome, WayRow};
+use super::outcome::SubsurfaceOutcome;
+use super::{AngleBin, BinError, GatherWay, Parameters, WayRow};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};

@@ -7,6 +7,7 @@ mod conclusion;
 pub(in crate::study) mod environment;
 mod model;
 mod options;
+mod outcome;
 mod pictures;
 mod report;
 mod seams;
@@ -15,43 +16,21 @@ mod way;
 
 use crate::atlas::Atlas;
 use crate::report::{Findings, Provenance};
-use crate::study::caster::CastRecord;
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::subsurface::links::Links;
 use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::{CardModel, SubsurfaceCard};
 use crate::subsurface::{Dipole, irradiance};
+
 use angles::{AngleBin, BinError};
 use model::ModelLengths;
 use options::ALL_PAIRS_SIDE;
+use outcome::SubsurfaceOutcome;
 use seams::Neighbours;
 use way::WayRow;
 
 pub(in crate::study) use options::no_card;
 pub use options::{GatherWay, Lighting, MapBits, Parameters, SubsurfaceOptions, no_atlas};
-
-#[derive(Debug)]
-struct SubsurfaceOutcome {
-    atlas: Atlas,
-    lengths: ModelLengths,
-    /// Dipoles for red, green and blue.
-    dipoles: [Dipole; 3],
-    /// E of equation 8 per texel, computed by the host.
-    irradiance: Vec<[f64; 3]>,
-    cast: Option<CastRecord>,
-    /// Radiosities over all pairs, in f64, per texel, row by row; `None` if not requested.
-    truth: Option<Vec<[f64; 3]>>,
-    rows: Vec<WayRow>,
-}
-
-impl SubsurfaceOutcome {
-    /// Values per texel by name: E, B over all pairs if computed, and B by every way of gathering.
-    fn columns(&self) -> impl Iterator<Item = (&str, &[[f64; 3]])> {
-        let truth = self.truth.iter().map(|truth| ("all_pairs", &truth[..]));
-        let ways = self.rows.iter().map(|row| (row.label.as_str(), &row.radiosity[..]));
-        [("E", &self.irradiance[..])].into_iter().chain(truth).chain(ways)
-    }
-}
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {

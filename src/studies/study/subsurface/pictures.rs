@@ -1,6 +1,7 @@
 //! Pictures: the model, and the maps of the passes (Figures 5 to 7).
 
-use super::{SubsurfaceOutcome, WayRow};
+use super::WayRow;
+use super::outcome::SubsurfaceOutcome;
 use crate::picture::display::encode;
 use crate::picture::metrics::value_error;
 use crate::picture::{Picture, RgbImage, rgb8};

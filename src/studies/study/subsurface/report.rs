@@ -1,7 +1,8 @@
 //! The study's page, tables, charts, pictures and trace.
 
 use super::conclusion::conclude;
-use super::{ALL_PAIRS_SIDE, Parameters, SubsurfaceOutcome, WayRow, pictures, tables};
+use super::outcome::SubsurfaceOutcome;
+use super::{ALL_PAIRS_SIDE, Parameters, WayRow, pictures, tables};
 use crate::options::one_of::name;
 use crate::report::words::counted;
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Scale, Series};

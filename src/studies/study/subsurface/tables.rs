@@ -1,7 +1,8 @@
 //! The tables of the study.
 
 use super::all_pairs::GatherError;
-use super::{Parameters, SubsurfaceOutcome, model};
+use super::outcome::SubsurfaceOutcome;
+use super::{Parameters, model};
 use crate::report::{Cell, Table};
 use crate::subsurface::on_card::PassKind;
 

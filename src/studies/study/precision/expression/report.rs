@@ -15,7 +15,7 @@ use crate::study::StudyError;
 const BITS: &str = "Bits of error are log2(1 + n), where n counts the format's numbers from the computed result to \
     the correctly rounded one; a NaN counts as all bits of the format. The mean is over sampled inputs. Accuracy is \
     the mean share of correct bits in the format. Inputs are numbers of the format itself. Discarded inputs meet the \
-    precondition but have no finite result in the format, or one that 12,288 bits do not decide.";
+    precondition, but their result in the format is not finite, or still ambiguous with 12,288 bits.";
 
 const OPERATIONS: &str = "local_bits is the error of the operation on its exact operands, each rounded once. \
     alone_bits is the error of the whole expression if only this operation rounds its result and all others are \

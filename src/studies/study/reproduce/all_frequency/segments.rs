@@ -93,8 +93,8 @@ impl SegmentSums {
         Ok(found)
     }
 
-    /// Size after coding relative to the size after clustering, and squared error relative to the sum of squares, in the
-    /// first coding.
+    /// Size after coding relative to the size after clustering, and squared error relative to the sum of squares, in
+    /// the first coding.
     pub(super) fn shares(&self) -> [f64; 2] {
         let CodeSums { numbers, squared_error, .. } = self.coded[0];
         [numbers as f64 / (4 * self.numbers) as f64, squared_error / self.squares]

@@ -1,5 +1,5 @@
-//! Drawing cost of clusters: with neither optimisation of section 5, with each alone, and with both; frame rates from sizes
-//! and overdraw, either the one printed in the table of section 7, or that of our clusters.
+//! Drawing cost of clusters: with neither optimisation of section 5, with each alone, and with both; frame rates from
+//! sizes and overdraw: the overdraw printed in the table of section 7, or that of our clusters.
 
 use refsim::device::Profile;
 use refsim::event::vertex_cache_misses;

@@ -93,7 +93,10 @@ impl PaperFile {
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let GroupedFile { stated, group } = toml::from_str(text).map_err(|error| error.to_string())?;
         let all = group.into_iter().flat_map(|FigureGroup { figures, shared }| {
-            figures.into_iter().map(move |own| with_shared(own, &shared).try_into().map_err(|e| e.to_string()))
+            figures.into_iter().map(move |own| {
+                let id = own.get("id").and_then(Value::as_str).unwrap_or("without id").to_owned();
+                with_shared(own, &shared).try_into().map_err(|e: toml::de::Error| format!("figure `{id}`: {e}"))
+            })
         });
         Ok(Self { stated, figures: all.collect::<Result<_, String>>()? })
     }

@@ -1,6 +1,6 @@
-//! Tables 3 to 5: the teapot room with and without a card, with asynchronous read-back, and with an infinitely fast card;
-//! by the range of triangle counts that go to the card; and by the rays per pass. The octree of the host alone, and the
-//! costs of commands.
+//! Tables 3 to 5: the teapot room with and without a card, with asynchronous read-back, and with an infinitely fast
+//! card; by the range of triangle counts that go to the card; and by the rays per pass. The octree of the host alone,
+//! and the costs of commands.
 
 use super::shares::{self, Share};
 use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};

@@ -1,5 +1,5 @@
-//! Workloads: a renderer's ray bundles, recorded once and replayed to engines; runs of engines, and their time on the host
-//! and card of the paper; the teapot room of Tables 1 and 3 to 5.
+//! Workloads: a renderer's ray bundles, recorded once and replayed to engines; runs of engines, and their time on the
+//! host and card of the paper; the teapot room of Tables 1 and 3 to 5.
 
 use std::cell::RefCell;
 use std::sync::Arc;
