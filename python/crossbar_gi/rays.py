@@ -268,6 +268,9 @@ def hard_rays(vertices: ArrayLike, faces: ArrayLike, n: int, seed: int = 0) -> H
 
 
 def counts(verdicts: NDArray[Any]) -> dict[Kind, int]:
-    """Count the verdicts of :meth:`Oracle.judge` by kind, right answers first, then the worst kind; omit kinds that do not occur."""
+    """Count the verdicts of :meth:`Oracle.judge` by kind: right answers first, then the worst kind.
+
+    Kinds that do not occur are omitted.
+    """
     numbers = np.bincount(verdicts["kind"], minlength=len(Kind))
     return {kind: int(numbers[kind]) for kind in Kind if numbers[kind]}

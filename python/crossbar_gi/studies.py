@@ -30,7 +30,7 @@ def reproduce(*ids: str, full_size: bool = False) -> list[dict[str, Any]]:
         ``ours``, ``low`` and ``high`` (the bound), ``verdict`` and others.
 
     Raises:
-        ValueError: if an id does not exist.
+        ValueError: if an id does not exist, or with full_size if no entry has a record.
     """
     document = json.loads(_native.reproduce(list(ids), full_size))
     rows: list[dict[str, Any]] = document["rows"]

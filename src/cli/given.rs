@@ -37,7 +37,7 @@ pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result
         let mut names = values.map(|value| value[..end(&value)].to_owned());
         if let Some(name) = names.find(|name| !known.insert(by_value(name))) {
             let what = format!(
-                "expected different values of `--{}`, found `{name}` twice",
+                "expected different values of `--{}`, found `{name}` again",
                 arg.get_long().unwrap_or_default()
             );
             return Err(Problem::usage(what, "remove one of the two"));
@@ -46,36 +46,45 @@ pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result
     Ok(())
 }
 
-/// Options that name a file to write; `--out` may also name a folder, which its command checks.
+/// Options that name a file to write. A folder (`DIR`) is checked by its command.
 const WRITTEN: [&str; 4] = ["out", "perfetto", "sheet", "matrix"];
 
-/// Rejects a file to be written whose folder is not writable, before long work, and one that another argument names,
-/// too. Fails with a [`Problem`].
+/// Rejects, before long work, a file to write that another argument names, and one whose folder is not writable. Fails
+/// with a [`Problem`]. [`crate::io::protect_inputs`] protects files that no argument names.
 pub(super) fn refuse_places(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
     let given = |arg: &&Arg| matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine);
     let paths = |arg: &Arg| {
         let values = matches.get_raw(arg.get_id().as_str()).into_iter().flatten();
-        // A link is followed.
-        values.map(|value| Path::new(value).canonicalize().unwrap_or_else(|_| value.into())).collect::<Vec<PathBuf>>()
+        values.map(|value| place_of(Path::new(value))).collect::<Vec<PathBuf>>()
     };
     let is_folder = |arg: &Arg| arg.get_value_names().into_iter().flatten().any(|name| name == "DIR");
+    let is_written = |arg: &Arg| WRITTEN.contains(&arg.get_id().as_str()) && !is_folder(arg);
     let named: Vec<&Arg> = command.get_arguments().filter(given).collect();
-    let written = named.iter().filter(|arg| WRITTEN.contains(&arg.get_id().as_str()) && !is_folder(arg));
-    for arg in written {
+    for arg in named.iter().filter(|arg| is_written(arg)) {
         let option = arg.get_long().unwrap_or_default();
         let others = || named.iter().filter(|other| other.get_id() != arg.get_id());
         // Devices and pipes are written to directly.
         for path in paths(arg).into_iter().filter(|path| path.is_file() || !path.exists()) {
-            if others().any(|other| paths(other).contains(&path)) {
+            // Where there is no file yet, other arguments are words, unless they are outputs, too.
+            if others().any(|other| (path.is_file() || is_written(other)) && paths(other).contains(&path)) {
                 let message = format!("`--{option}` names a file that the command also reads or writes");
                 return Err(Problem::usage(message, "give another file"));
             }
-            let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-            require_writable(folder)?;
+            require_writable(folder_of(&path))?;
         }
     }
     Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
+}
+
+/// The same path for all names of a file, which need not exist. A link is followed.
+fn place_of(path: &Path) -> PathBuf {
+    let in_folder = || Some(folder_of(path).canonicalize().ok()?.join(path.file_name()?));
+    path.canonicalize().ok().or_else(in_folder).unwrap_or_else(|| path.into())
 }
 
 /// A value in which every number between colons has its shortest form.

@@ -2,7 +2,8 @@
 //!
 //! A command computes, writes its findings to an [`Out`], and returns whether its check passed ([`Verdict`]), or a
 //! [`miette::Report`] for bad input. Studies share one runner, `study`. This file converts both to exit codes: 0 done,
-//! 1 the check failed, 2 bad input or usage. If a reader closes the pipe (`| head`), the program ends quietly.
+//! 1 the check failed, 2 bad input or usage. If a reader closes the pipe (`| head`), the program ends quietly, or with
+//! the code of its check.
 
 mod all_frequency;
 mod alu;

@@ -73,9 +73,10 @@ impl StudyArgs for Args {
         let (camera, methods) = (viewpoint.camera(&scene)?, self.options.methods()?);
         let is_on_card = methods.iter().any(|method| matches!(method, SolveMethod::Card(_)));
         if !is_on_card {
-            let executor = self.card.names_executor() && !self.caster.is_engine();
-            let given = self.card.given().into_iter().chain([("--executor", executor)]);
-            given::refuse(given, "methods on a card", "remove the option, or add `--solver card`")?;
+            given::refuse(self.card.given(), "methods on a card", "remove the option, or add `--solver card`")?;
+            let executor = [("--executor", self.card.names_executor() && !self.caster.is_engine())];
+            let help = "remove the option, or add `--solver card` or `--caster engine`";
+            given::refuse(executor, "methods on a card and the Ray Engine", help)?;
         }
         let unoccluded = self.options.factors == Factors::Unoccluded;
         let idle = unoccluded && self.caster.is_named();

@@ -49,8 +49,10 @@ fn every_command_has_an_example_and_speaks_json() {
 #[test]
 fn version() {
     let ran = crossbar(&["--version"], "");
-    let beginning = format!("crossbar {} (", env!("CARGO_PKG_VERSION"));
-    assert!(ran.stdout.starts_with(&beginning) && ran.stdout.contains("features cli"), "{}", ran.stdout);
+    let optional = [("wgpu", cfg!(feature = "wgpu")), ("wgsl", cfg!(feature = "wgsl"))];
+    let features = optional.iter().filter(|(_, has)| *has).fold("cli".to_owned(), |all, (name, _)| all + ", " + name);
+    let commit = option_env!("CROSSBAR_COMMIT").map(|commit| format!("{commit}, ")).unwrap_or_default();
+    assert_eq!(ran.stdout, format!("crossbar {} ({commit}features {features})\n", env!("CARGO_PKG_VERSION")));
     assert_eq!((ran.code, &ran.stdout), (Some(0), &crossbar(&["-V"], "").stdout));
 }
 

@@ -50,7 +50,7 @@ fn values_are_read_and_bad_ones_refused() {
             words("lambert:0.5 phong:0.1,0.5,20 ward:0.1,0.3,0.1,0.4 ashikhmin-shirley:0.1,0.5,9,99"),
             words("lambert lambert:2 lambert:0.1,0.2 phong:0.1,0.5,nan ward:0,1,0,0.1 mirror:1"),
         ),
-        ("cpca precompute m.obj --out x.npz --tangents", words("any texture 0,0,2"), words("0,0,0 some 1,2")),
+        ("cpca precompute m.obj --out x.npz --tangents", words("any texture 0,0,2 0.1,0,1"), words("0,0,0 some 1,2")),
     ];
     for (command, good, bad) in cases {
         for value in good {

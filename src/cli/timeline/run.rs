@@ -98,7 +98,9 @@ impl CardRun {
         let device = args.device.as_deref().map(device_named).transpose()?;
         // Figures that the models lack are reported before the drawing, which may take long.
         let watcher = |profile: &Profile| -> Result<_, Problem> {
-            Model::new(Level::Pipeline, profile).map_err(no_figure)?;
+            for level in [Level::Rates, Level::Pipeline] {
+                Model::new(level, profile).map_err(no_figure)?;
+            }
             let caches = args.cache.then(|| TextureCaches::new(profile)).transpose().map_err(no_figure)?;
             Ok(caches.map(|caches| move || -> Box<dyn TexelObserver> { Box::new(caches.clone()) }))
         };

@@ -101,7 +101,8 @@ fn hostile_places_for_results() {
     });
 }
 
-/// No command replaces a file that it reads, whether it writes a file or a folder.
+/// No command replaces a file that it reads, whether it writes a file or a folder. The first two are refused before the
+/// work, the last when it writes.
 #[test]
 fn inputs_are_not_overwritten() {
     let (mesh, rays) = (&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"[..], &b"ox,oy,oz,dx,dy,dz\n0,0,1,0,0,-1\n"[..]);

@@ -27,10 +27,10 @@ use crate::tree::{self, command_of};
 use table::{TABLE, Tried};
 
 /// Options whose value here may be refused everywhere: it names something that this test cannot provide, a model other
-/// than the file's, a precision that the card lacks, or an entry of `reproduce` whose run takes minutes; or each line has
-/// an option that excludes it.
-const NEVER_ACCEPTED: [&str; 8] =
-    ["--emulator", "--model", "--model-up", "--strict", "--crease", "--switch", "--full-size", "--list"];
+/// than the file's, a precision that the card lacks, or an entry of `reproduce` whose run takes minutes; or each line
+/// has an option that excludes it.
+const NEVER_ACCEPTED: [&str; 9] =
+    ["--emulator", "--model", "--model-up", "--strict", "--crease", "--switch", "--full-size", "--list", "--record"];
 
 /// Tried on every command line: the number of threads changes nothing.
 const THREADS: TriedOption = TriedOption { name: "--threads", value: Some("1"), only: None, is_same: true };
