@@ -40,6 +40,9 @@ pub(super) fn rounded(hits: Vec<Option<CardHit>>) -> Vec<Option<Hit>> {
     hits.into_iter().map(|hit| hit.map(|CardHit { triangle, t }| Hit { triangle, t: t as f32 })).collect()
 }
 
+/// The hit of each ray, and the fence to wait for.
+pub(super) type ReadHits = (Vec<Option<CardHit>>, Option<FenceId>);
+
 impl RayTextures {
     pub(super) fn new(
         machine: &mut Machine,
@@ -109,7 +112,7 @@ impl RayTextures {
         rays: &RayBatch,
         units: &Units,
         wait: bool,
-    ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
+    ) -> Result<ReadHits, EngineError> {
         let (color, depth) = (self.target.color, self.target.depth);
         // The fence of the second transfer also follows the first transfer.
         let (fence, image, depth) = if wait {

@@ -133,7 +133,7 @@ impl Crossbar {
         cull: bool,
     ) -> Result<Answer, EngineError> {
         let mut card = self.pass_card(mesh, sides, cull)?;
-        let (hits, _, events) = card.test(0, mesh, triangles, rays, true)?;
+        let ((hits, _), events) = card.test(0, mesh, triangles, rays, true)?;
         Ok(Answer { hits: rounded(hits), events, kernel: card.kernel.name, log: Vec::new() })
     }
 

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
-use refsim::event::{DrawEvents, FenceId};
+use refsim::event::DrawEvents;
 use refsim::machine::Machine;
 
-use super::card::{CardHit, RayTextures, Streams};
+use super::card::{RayTextures, ReadHits, Streams};
 use super::cull;
 use super::units::Units;
 use super::{EngineError, Kernel, RayBatch};
@@ -39,7 +39,7 @@ impl PassCard {
         triangles: &[u32],
         rays: &RayBatch,
         wait: bool,
-    ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>, DrawEvents), EngineError> {
+    ) -> Result<(ReadHits, DrawEvents), EngineError> {
         let (machine, kernel) = (&mut self.machine, &self.kernel);
         let units = Units::within(kernel.numbers(&machine.profile().rules), self.bounds, rays);
         let bucket = match kernel.culls {
@@ -56,7 +56,6 @@ impl PassCard {
         };
         loaded.clear(machine)?;
         let events = loaded.draw(machine, kernel, &units, &bucket, &Streams::new(mesh, kernel, &units, triangles))?;
-        let (hits, fence) = loaded.read_back(machine, rays, &units, wait)?;
-        Ok((hits, fence, events))
+        Ok((loaded.read_back(machine, rays, &units, wait)?, events))
     }
 }

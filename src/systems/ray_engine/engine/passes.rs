@@ -74,7 +74,7 @@ impl Passes {
         let sheet = self.free.pop_front().unwrap_or(self.sheets);
         self.sheets = self.sheets.max(sheet + 1);
         let wait = !matches!(self.readback, Readback::Asynchronous { .. });
-        let (hits, fence, events) = self.card.test(sheet, mesh, triangles, &batch, wait)?;
+        let ((hits, fence), events) = self.card.test(sheet, mesh, triangles, &batch, wait)?;
         self.flying.push_back(PassInFlight { waiting, hits, fence, sheet });
         // A quad covers the whole screen or no pixel.
         Ok((events.fragments.generated / batch.rays().len().max(1) as u64).min(triangles.len() as u64))
