@@ -29,8 +29,18 @@ use table::{TABLE, Tried};
 /// Options whose value here may be refused everywhere: it names something that this test cannot provide, a model other
 /// than the file's, a precision that the card lacks, or an entry of `reproduce` whose run takes minutes; or each line
 /// has an option that excludes it.
-const NEVER_ACCEPTED: [&str; 9] =
-    ["--emulator", "--model", "--model-up", "--strict", "--crease", "--switch", "--full-size", "--list", "--record"];
+const NEVER_ACCEPTED: [&str; 10] = [
+    "--emulator",
+    "--model",
+    "--model-up",
+    "--strict",
+    "--crease",
+    "--switch",
+    "--full-size",
+    "--list",
+    "--record",
+    "--fpcore",
+];
 
 /// Tried on every command line: the number of threads changes nothing.
 const THREADS: TriedOption = TriedOption { name: "--threads", value: Some("1"), only: None, is_same: true };
@@ -271,6 +281,7 @@ fn inputs() -> &'static Path {
             "all-frequency precompute square.obj --reflectance factors --out glossy_sight.npz",
             "all-frequency compress glossy_sight.npz --model square.obj --vectors 3 --out glossy.npz",
             "bi-scale precompute docs/examples/court.obj --directions 2 --out court.npz",
+            "matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8 --out product",
             "bi-scale texture plain --texels 2 --directions 4 --views 2 --out plain.npy",
         ] {
             let ran = line_in(folder.path(), line);

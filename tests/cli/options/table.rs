@@ -22,7 +22,7 @@ fn group(word: &str) -> String {
         "+card" => format!("--sweep --device={at} --switch=target-rounding=truncate same:--executor=scalar"),
         "+caster" => format!(
             "--caster=engine@0 --caster-device=r200 --caster-format=fp16@0,{at} --octree=1,1@{at} \
-             --pass-triangles=9,99@{at} --pass-rays=9999@{at} --readback=free@{at}"
+             --pass-triangles=9,99@{at} --pass-rays=3001@{at} --readback=free@{at}"
         ),
         option => option.to_owned(),
     }
