@@ -7,7 +7,7 @@ use refsim::{
     check::registers,
     device::Profile,
     exec::{CheckedProgram, Constants},
-    isa::{FIRST_ENVIRONMENT, ParameterSource, RegisterFile, Version},
+    isa::{FIRST_ENVIRONMENT, ParameterSource, Register, RegisterFile, Version},
 };
 use toml::Spanned;
 
@@ -39,9 +39,10 @@ impl Binder<'_> {
         let mut constants = Constants::default();
         // OpenGL's constants have two names each.
         let mut floats = BTreeMap::new();
+        let numbered = parameter_names(program);
         for (name, value) in written {
             let span = value.span();
-            match (self.constant_target(name, program, profile, span.clone())?, value.get_ref()) {
+            match (self.constant_target(name, (program, &numbered), profile, span.clone())?, value.get_ref()) {
                 (ConstantTarget::Float(number), Constant::Vector(numbers)) => {
                     if let Some(other) = floats.insert(number, name) {
                         let message = format!("`{other}` and `{name}` are the same constant");
@@ -80,7 +81,7 @@ impl Binder<'_> {
     fn constant_target(
         &self,
         name: &str,
-        program: &CheckedProgram,
+        (program, numbered): (&CheckedProgram, &BTreeMap<String, Register>),
         profile: &Profile,
         span: Range<usize>,
     ) -> Result<ConstantTarget, CaseError> {
@@ -88,7 +89,6 @@ impl Binder<'_> {
         if let Some(parameter) = declared().find(|p| p.name == *name) {
             return Ok(ConstantTarget::Named(parameter.width));
         }
-        let numbered = parameter_names(program);
         if let Some(register) = numbered.get(name) {
             return Ok(ConstantTarget::Float(register.index.into()));
         }
